@@ -1,0 +1,137 @@
+/* weft: oversampled progressive renders to interlaced broadcast video.
+ *
+ * The public interface. Opaque handles live until their _free; plain structs describe.
+ * Functions that can fail return a weft_status and, where the caller gave a weft_error, leave a
+ * sentence in it: what was wrong, with which file, frame or line, and what would be right.
+ * Nothing here exits, prints, or keeps global state. A handle is used by one thread at a time;
+ * different handles are independent. */
+#ifndef WEFT_H
+#define WEFT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define WEFT_API __attribute__((visibility("default")))
+#else
+#define WEFT_API
+#endif
+
+#define WEFT_VERSION "0.1.0"
+
+/* The version of the library that is running; WEFT_VERSION is the header's. Static storage. */
+WEFT_API const char *weft_version(void);
+
+typedef enum weft_status {
+    WEFT_OK = 0,
+    WEFT_FAILED,     /* input or output at fault: exit code 1 */
+    WEFT_USAGE,      /* the request makes no sense: exit code 2 */
+    WEFT_DEGRADED,   /* finished, but frames were held or samples mended: exit code 3 */
+    WEFT_NO_MEMORY,  /* an allocation failed or --max-memory would not do: exit code 1 */
+    WEFT_INTERRUPTED /* weft_job_cancel: nothing half-written is left */
+} weft_status;
+
+typedef struct weft_error {
+    char text[1024]; /* UTF-8, no newline at its end; "" if nothing went wrong */
+} weft_error;
+
+/* ---- Conversion jobs ------------------------------------------------------------------------
+ */
+
+/* One conversion: inputs, an output, and options by the names of the command line. */
+typedef struct weft_job weft_job;
+
+/* NULL when memory is out. */
+WEFT_API weft_job *weft_job_new(void);
+WEFT_API void weft_job_free(weft_job *job); /* NULL is fine */
+
+/* Adds a file, a sequence pattern or a directory, in order. The text is copied. */
+WEFT_API weft_status weft_job_add_input(weft_job *job, const char *path, weft_error *err);
+WEFT_API weft_status weft_job_set_output(weft_job *job, const char *path, weft_error *err);
+
+/* Sets option name ("raster", "temporal-width"; no dashes) to the text value as the command
+ * line would; a flag takes NULL or "". WEFT_USAGE says what the option takes and, for an
+ * unknown name, which one is near. */
+WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *value,
+                                  weft_error *err);
+
+/* Progress of weft_job_run, called from the thread that called it, between frames. */
+typedef struct weft_progress {
+    int64_t frames_done, frames_total;
+    double seconds;    /* since the run began */
+    const char *stage; /* "convert", "finish"; static storage */
+} weft_progress;
+typedef void weft_progress_fn(const weft_progress *progress, void *user);
+WEFT_API void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user);
+
+/* Messages that do not stop the job (an aspect that will be stretched, subframes held). */
+typedef void weft_warning_fn(const char *text, void *user);
+WEFT_API void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user);
+
+/* Runs the job to its end. Uses the number of threads the option says. WEFT_DEGRADED is a
+ * finished run. On any failure no file stands at the output's name that was not there before.
+ */
+WEFT_API weft_status weft_job_run(weft_job *job, weft_error *err);
+
+/* Asks a running job to stop soon. Safe in a signal handler and from any thread. */
+WEFT_API void weft_job_cancel(weft_job *job);
+
+/* The report of the last run as JSON, for whoever called weft_job_run; "{}" before. Lives as
+ * long as the job or until its next run. */
+WEFT_API const char *weft_job_report(const weft_job *job);
+
+/* ---- Options ---- */
+
+/* One option of weft_job_set, for help texts and bindings. */
+typedef struct weft_option {
+    const char *name;   /* "temporal-width" */
+    const char *takes;  /* "T", "start|center|end"; NULL: a flag */
+    const char *preset; /* the default, for people; NULL: none */
+    const char *help;   /* one sentence */
+    const char *group;  /* heading it belongs under */
+} weft_option;
+
+/* Option by index; false past the end. Strings have static storage. */
+WEFT_API bool weft_option_at(size_t index, weft_option *out);
+
+/* ---- Apertures ---- */
+
+/* Name of aperture i ("line", "rotated", ..); NULL past the end. Static storage. */
+WEFT_API const char *weft_aperture_name(size_t index);
+
+/* Frequency response of an aperture ("box", "mitchell:1.5,-0.25") of temporal width tau_fields
+ * at fx cycles a pixel, fy cycles a frame line, ft cycles a field period: a closed form
+ * (integrated for shaped), 1 at DC, real since every aperture is symmetric. tau_fields < 0: its
+ * own default. */
+WEFT_API weft_status weft_aperture_response(const char *aperture, double tau_fields, double fx,
+                                            double fy, double ft, double *response,
+                                            weft_error *err);
+
+/* ---- Rasters ---- */
+
+typedef struct weft_raster {
+    char name[64];
+    int width_px, lines;                   /* whole frame */
+    int64_t rate_num, rate_den;            /* frames a second */
+    bool interlaced, segmented, top_first; /* top_first means something when interlaced */
+    int64_t pixel_aspect_num, pixel_aspect_den;
+    const char *matrix;            /* "601-525", "601-625", "709", "2020" */
+    int line1, line2, total_lines; /* analogue line map; 0 where there is none */
+} weft_raster;
+
+/* Named raster i; false past the end. */
+WEFT_API bool weft_raster_at(size_t index, weft_raster *out);
+
+/* A raster by name or by description ("180x122@30i,tff"). */
+WEFT_API weft_status weft_raster_parse(const char *text, weft_raster *out, weft_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
