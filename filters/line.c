@@ -1,0 +1,132 @@
+#include <string.h>
+
+#include "filters/plan.h"
+
+static const float *done_row(const wf_field *f, int tap, int channel) {
+    return f->done + (size_t)f->plan->taps[tap].sum * wf_done_samples(f->rs) +
+           (size_t)channel * wf_row_samples(f->rs);
+}
+
+/* One channel of the sums of some taps: all of them go through the same kernel. */
+static void add_up(const wf_field *f, wf_span taps, int channel, double *row) {
+    const wf_resampler *rs = f->rs;
+    size_t samples = wf_row_samples(rs);
+    bool pair = taps.end - taps.first > 1;
+    rs->ops->set_rows(row, done_row(f, taps.first, channel),
+                      pair ? done_row(f, taps.first + 1, channel) : NULL, samples);
+    for (int t = taps.first + 2; t < taps.end; t++)
+        rs->ops->add_row(row, done_row(f, t, channel), samples);
+}
+
+/* Pixels of one phase side by side: out[r][m] += sum over t of weight[r][t] row[cell], for
+ * pixel phases * m + r. */
+static void filter_phases(const wf_resampler *rs, const double *weight, const double *row,
+                          double *out) {
+    double reach = rs->desc.aperture.kind->reach_u;
+    for (int r = 0; r < rs->phases; r++) {
+        size_t count = (size_t)((rs->x.pixels - r + rs->phases - 1) / rs->phases);
+        int first = wf_axis_reach(&rs->x, reach, r).first - rs->columns.first;
+        for (int t = 0; t < rs->taps; t++) {
+            double w = weight[r * rs->taps + t];
+            if (w == 0) continue;
+            int cell = first + t, lane = cell % rs->lanes, at = cell / rs->lanes;
+            rs->ops->add_tap(out + (size_t)r * wf_run_length(rs),
+                             row + lane * rs->lane_length + at, w, count);
+        }
+    }
+}
+
+static void filter_pixels(const wf_resampler *rs, const double *weight, const double *row,
+                          double *out) {
+    double reach = rs->desc.aperture.kind->reach_u;
+    for (int i = 0; i < rs->x.pixels; i++) {
+        int r = i % rs->phases;
+        wf_span span = wf_axis_reach(&rs->x, reach, i);
+        double sum = 0;
+        for (int a = span.first; a < span.end; a++)
+            sum += weight[r * rs->taps + a - span.first] * row[a - rs->columns.first];
+        out[(size_t)r * wf_run_length(rs) + (size_t)(i / rs->phases)] += sum;
+    }
+}
+
+/* What the samples of subframes with overscan weigh, pixel by pixel: there the cells that exist
+ * differ from subframe to subframe. */
+static void add_overscan(const wf_field *f, wf_span taps, const wf_kernel *kernel,
+                         wf_scratch *s) {
+    const wf_resampler *rs = f->rs;
+    double reach = rs->desc.aperture.kind->reach_u;
+    for (int i = 0; i < rs->x.pixels; i++) {
+        const double *weight = kernel->weight + (i % rs->phases) * rs->taps;
+        wf_span span = wf_axis_reach(&rs->x, reach, i);
+        double total = 0;
+        for (int t = taps.first; t < taps.end; t++) {
+            const double *row = f->overscan + (size_t)f->plan->taps[t].sum * wf_columns_of(rs);
+            for (int a = span.first; a < span.end; a++)
+                total += weight[a - span.first] * row[a - rs->columns.first];
+        }
+        s->inside[i] += total;
+        s->exists[i] += total;
+    }
+}
+
+static void add_totals(const wf_field *f, wf_span taps, const wf_kernel *kernel,
+                       wf_scratch *s) {
+    double inside = 0, exists = 0;
+    for (int t = taps.first; t < taps.end; t++) {
+        inside += f->inside[f->plan->taps[t].sum];
+        exists += f->exists[f->plan->taps[t].sum];
+    }
+    for (int i = 0; i < f->rs->x.pixels; i++) {
+        s->inside[i] += inside * kernel->inside[i];
+        s->exists[i] += exists * kernel->exists[i];
+    }
+    if (f->overscan) add_overscan(f, taps, kernel, s);
+}
+
+/* Sums that share a kernel go through it together. */
+static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
+    const wf_resampler *rs = f->rs;
+    const wf_kernel *kernel = wf_kernel_ready(rs, f->plan->taps[taps.first].kernel, &s->kernel);
+    size_t samples = (size_t)rs->phases * wf_run_length(rs);
+    for (int c = 0; c < rs->desc.channels; c++) {
+        double *out = s->picture + (size_t)c * samples;
+        add_up(f, taps, c, s->row);
+        if (rs->polyphase)
+            filter_phases(rs, kernel->weight, s->row, out);
+        else
+            filter_pixels(rs, kernel->weight, s->row, out);
+    }
+    add_totals(f, taps, kernel, s);
+}
+
+/* Divides by the weight of what exists; what is neither covered by the input nor opaque shows
+ * the background. */
+static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
+    size_t samples = (size_t)rs->phases * wf_run_length(rs);
+    for (int i = 0; i < rs->x.pixels; i++) {
+        size_t at = (size_t)(i % rs->phases) * wf_run_length(rs) + (size_t)(i / rs->phases);
+        double share = 1 / s->exists[i];
+        double alpha = rs->desc.channels == 4 ? s->picture[3 * samples + at] : s->inside[i];
+        double clear = 1 - alpha * share;
+        for (int c = 0; c < 3; c++) {
+            double light = s->picture[(size_t)c * samples + at] * share;
+            if (rs->desc.background[c] != 0) light += clear * (double)rs->desc.background[c];
+            rgb[c][i] = (float)light;
+        }
+    }
+}
+
+void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[3]) {
+    const wf_resampler *rs = f->rs;
+    size_t samples = (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs);
+    memset(s->picture, 0, samples * sizeof *s->picture);
+    memset(s->inside, 0, 2 * (size_t)rs->x.pixels * sizeof *s->inside);
+    wf_span all = f->plan->line_taps[line], group = {all.first, all.first};
+    while (group.end < all.end) {
+        group.first = group.end;
+        int kernel = f->plan->taps[group.first].kernel;
+        while (group.end < all.end && f->plan->taps[group.end].kernel == kernel) group.end++;
+        add_group(f, group, s);
+    }
+    normalize(rs, s, rgb);
+}
