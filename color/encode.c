@@ -1,0 +1,77 @@
+/* Display-encoded R'G'B' to code values. */
+#include "color/encoder.h"
+
+#include "color/chroma.h"
+#include "color/line.h"
+
+/* Rec. ITU-R BT.601-7 item 2.5.1, BT.709-6 item 3.2, BT.2020-2 table 4. */
+static const struct {
+    double kr, kb;
+} luma_weights[] = {
+    [WF_LUMA_601] = {0.299, 0.114},
+    [WF_LUMA_709] = {0.2126, 0.0722},
+    [WF_LUMA_2020] = {0.2627, 0.0593},
+};
+
+/* Levels at 8 bits in narrow range: where signals of 0 and 1 (chroma: 1 from end to end) lie, and
+ * what is legal. */
+typedef struct levels {
+    double zero, unit, legal_low, legal_high;
+} levels;
+
+static const levels narrow_luma = {16, 219, 16, 235}; /* R', G', B' as well */
+static const levels narrow_chroma = {128, 224, 16, 240};
+
+static wf_quantizer narrow_quantizer(const wf_encoding *e, levels at) {
+    double step = (double)(1 << (e->bits - 8)); /* of one 8-bit code */
+    bool clip = e->legalize == WF_LEGAL_CLIP;
+    return (wf_quantizer){.scale = step * at.unit,
+                          .offset = step * at.zero,
+                          .low = step * (clip ? at.legal_low : 1),
+                          /* above lie the codes that are kept for synchronisation */
+                          .high = clip ? step * at.legal_high : step * 255 - 1};
+}
+
+static wf_quantizer full_quantizer(const wf_encoding *e, bool chroma) {
+    double most = (double)((1 << e->bits) - 1);
+    return (wf_quantizer){
+        .scale = most, .offset = chroma ? (double)(1 << (e->bits - 1)) : 0, .low = 0, .high = most};
+}
+
+static wf_quantizer quantizer_of(const wf_encoding *e, bool chroma) {
+    if (e->full_range) return full_quantizer(e, chroma);
+    return narrow_quantizer(e, chroma ? narrow_chroma : narrow_luma);
+}
+
+static wf_ycbcr ycbcr_of(wf_luma luma) {
+    double kr = luma_weights[luma].kr, kb = luma_weights[luma].kb;
+    return (wf_ycbcr){.kr = (float)kr,
+                      .kb = (float)kb,
+                      .cb_scale = (float)(0.5 / (1 - kb)),
+                      .cr_scale = (float)(0.5 / (1 - kr))};
+}
+
+static const wf_chroma_filter *filter_of(const wf_encoding *e) {
+    return e->ycbcr ? wf_chroma_filter_of(e->chroma) : NULL;
+}
+
+size_t wf_encode_scratch(const wf_encoding *encoding) {
+    return filter_of(encoding) ? wf_chroma_scratch((size_t)encoding->width_px) : 0;
+}
+
+void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scratch,
+                    uint16_t *const code[3]) {
+    const wf_line_ops *ops = wf_line_ops_best();
+    const wf_chroma_filter *filter = filter_of(encoding);
+    size_t width = (size_t)encoding->width_px;
+    if (encoding->ycbcr) {
+        wf_ycbcr weights = ycbcr_of(encoding->luma);
+        ops->ycbcr(&weights, rgb[0], rgb[1], rgb[2], width);
+    }
+    for (int c = 0; c < 3; c++) {
+        bool chroma = encoding->ycbcr && c > 0;
+        if (chroma && filter) wf_chroma_decimate(filter, rgb[c], width, scratch);
+        wf_quantizer quantizer = quantizer_of(encoding, chroma);
+        ops->quantize(&quantizer, code[c], rgb[c], chroma && filter ? width / 2 : width);
+    }
+}

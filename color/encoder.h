@@ -1,0 +1,50 @@
+#ifndef WF_COLOR_ENCODER_H
+#define WF_COLOR_ENCODER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Luma weights Kr, Kb of the three standards (BT.601, BT.709, BT.2020 non-constant luminance). */
+typedef enum wf_luma { WF_LUMA_601, WF_LUMA_709, WF_LUMA_2020 } wf_luma;
+
+typedef enum wf_chroma { WF_CHROMA_BT601, WF_CHROMA_121, WF_CHROMA_BOX, WF_CHROMA_444 } wf_chroma;
+typedef enum wf_legalize { WF_LEGAL_NONE, WF_LEGAL_CLIP } wf_legalize;
+
+/* Scene-linear to display-encoded R'G'B', in place: three planes of width_px samples. Called from
+ * many threads at once; never fails once made. */
+typedef struct wf_transform {
+    void (*apply)(const void *self, float *r, float *g, float *b, size_t width_px);
+    void (*free)(void *self);
+    void *self;
+} wf_transform;
+
+/* One of the shipped spaces to another without OpenColorIO: the same matrices and curves as
+ * color/weft.ocio. False with a reason (and the names there are) if a name is unknown. */
+bool wf_builtin_transform(const char *from, const char *to, wf_transform *out, char *why,
+                          size_t why_size);
+
+/* The name of shipped space i, NULL past the end; *is_output tells an encoding from an input. */
+const char *wf_builtin_space(size_t index, bool *is_output);
+
+/* How display-encoded R'G'B' becomes codes. */
+typedef struct wf_encoding {
+    wf_luma luma;
+    wf_chroma chroma;     /* ignored for R'G'B' */
+    wf_legalize legalize;
+    bool ycbcr;           /* false: the codes are R'G'B' */
+    bool full_range;
+    int bits;             /* 8, 10, 12 or 16 */
+    int width_px;
+} wf_encoding;
+
+/* Samples of float scratch that wf_encode_line needs. */
+size_t wf_encode_scratch(const wf_encoding *encoding);
+
+/* One line of display-encoded R'G'B' planes (width_px each; overwritten) to codes: Y Cb Cr (Cb, Cr
+ * width_px / 2 samples, co-sited with even luma, unless 444) or R G B. NaN never reaches a code: it
+ * counts as 0. */
+void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scratch,
+                    uint16_t *const code[3]);
+
+#endif
