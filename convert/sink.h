@@ -1,0 +1,63 @@
+#ifndef WF_CONVERT_SINK_H
+#define WF_CONVERT_SINK_H
+
+#include "convert/fail.h"
+#include "filters/raster.h"
+
+typedef enum wf_layout { WF_LINEAR, WF_RGB, WF_YCBCR } wf_layout;
+
+/* What a sink is given for the whole run. Strings are borrowed. */
+typedef struct wf_sink_options {
+    const char *output; /* as the user wrote it */
+    const wf_raster *raster;
+    wf_layout layout;
+    int bits; /* of the codes; 32 for WF_LINEAR */
+    bool full_range;
+    bool subsampled;     /* 4:2:2; false: 4:4:4 */
+    int64_t first_frame; /* of this chunk of the run */
+    int64_t frame_count;
+    bool stream_header;      /* false: a later chunk, to be joined by cat */
+    const char *timecode;    /* of frame 0; validated */
+    const char *color_space; /* what the codes are in, for metadata; "" if unknown */
+    bool overwrite, resume;
+} wf_sink_options;
+
+/* One finished frame, both fields woven, top line first. Planes are R G B or Y Cb Cr, each line
+ * stride[p] samples after the last. Codes are uint16_t, WF_LINEAR is float. */
+typedef struct wf_frame {
+    const void *plane[3];
+    size_t stride[3];
+    int64_t index; /* from 0 in the whole run, chunk or not */
+} wf_frame;
+
+typedef struct wf_sink wf_sink;
+
+/* One kind of output: a row of the registry. A sink is driven by one thread at a time. */
+typedef struct wf_sink_kind {
+    const char *name;
+    const char *endings; /* "y4m -", blank separated; sequences: "exr" */
+    const char *help;    /* one line for people */
+    wf_layout layout;    /* the layout it takes by default */
+    unsigned bits_mask;  /* 1u << bits for each depth it takes */
+    int default_bits;
+    bool full_range; /* default range */
+    bool sequence;   /* one file a frame, named by a pattern */
+    bool joins;      /* chunks of it can be joined by cat, or are files of their own */
+    bool fixed_422;  /* 4:2:2 is the only sampling it takes */
+    weft_status (*open)(const wf_sink_options *options, wf_sink **out, weft_error *err);
+    weft_status (*write)(wf_sink *sink, const wf_frame *frame, weft_error *err);
+    weft_status (*commit)(wf_sink *sink,
+                          weft_error *err); /* sync, rename; frees sink in any case */
+    void (*abandon)(wf_sink *sink);         /* removes what is unfinished, frees */
+} wf_sink_kind;
+
+/* The registry, by index; NULL past the end. */
+const wf_sink_kind *wf_sink_at(size_t index);
+
+/* The kind an output's name asks for; NULL with an error that lists what there is. */
+const wf_sink_kind *wf_sink_for(const char *output, weft_error *err);
+
+/* Whether frame is already there, whole (sequences), or the whole output is (index < 0). */
+bool wf_sink_present(const wf_sink_kind *kind, const char *output, int64_t frame);
+
+#endif
