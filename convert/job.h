@@ -1,0 +1,76 @@
+#ifndef WF_CONVERT_JOB_H
+#define WF_CONVERT_JOB_H
+
+#include <signal.h>
+
+#include "color/encoder.h"
+#include "convert/sink.h"
+#include "convert/source.h"
+#include "filters/aperture.h"
+#include "filters/raster.h"
+
+typedef enum wf_fit { WF_FIT_STRETCH, WF_FIT_CROP, WF_FIT_PAD } wf_fit;
+typedef enum wf_on_missing {
+    WF_MISSING_ERROR,
+    WF_MISSING_HOLD,
+    WF_MISSING_BLACK
+} wf_on_missing;
+typedef enum wf_code_range { WF_RANGE_UNSET, WF_RANGE_NARROW, WF_RANGE_FULL } wf_code_range;
+
+/* Everything a conversion was asked for; convert/options.c fills it, one table row an option.
+ * Strings are owned by the job. */
+struct weft_job {
+    char **inputs;
+    size_t input_count;
+    char *output;
+
+    wf_raster raster;
+    wf_aperture aperture;          /* its width is the option's if one was given */
+    wf_rational temporal_width;    /* field periods; {0,0}: the aperture's */
+    bool width_given, angle_given; /* which of the two options that set it were */
+    wf_position shutter_position;
+    wf_rational scan_skew;
+
+    char *frames;              /* range of the selection; NULL: all */
+    wf_rational subframe_rate; /* {0,0}: from the files */
+    bool subframe_time_center;
+    wf_fit fit;
+    wf_rational input_par; /* {0,0}: from the files */
+    float background[3];   /* scene-linear */
+    char *layer, *part;
+
+    char *ocio, *from, *to, *display, *view, *look;
+    int bits; /* 0: the output's default */
+    wf_code_range range;
+    wf_chroma chroma;
+    wf_legalize legalize;
+
+    char *timecode;
+    wf_on_missing on_missing;
+    wf_nan_fix nan_fix;
+    int chunk, chunk_count; /* 1-based */
+    int threads;            /* 0: all */
+    bool skip;              /* --skip on */
+    size_t max_memory_bytes;
+    bool overwrite, resume;
+
+    weft_progress_fn *progress;
+    void *progress_user;
+    weft_warning_fn *warning;
+    void *warning_user;
+    volatile sig_atomic_t cancelled;
+    char *report; /* JSON of the last run */
+};
+
+/* Sends a message to the job's warning function. */
+void wf_job_warn(const weft_job *job, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Gives a zeroed job what the presets of its options say. */
+weft_status wf_job_preset(weft_job *job, weft_error *err);
+
+/* Contradictions between options that can be seen without opening a file: what weft_job_run
+ * looks at first. Options may be set in any order. */
+weft_status wf_job_check(const weft_job *job, weft_error *err);
+
+#endif

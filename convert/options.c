@@ -1,0 +1,353 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/fail.h"
+#include "convert/job.h"
+#include "convert/range.h"
+#include "convert/values.h"
+#include "filters/near.h"
+
+/* One option: a row makes the parser, the checks, the help and the binding. */
+typedef struct option_row option_row;
+typedef weft_status set_fn(weft_job *job, const option_row *row, const char *value,
+                           weft_error *err);
+
+struct option_row {
+    weft_option shown;
+    bool initial; /* the preset is a value, which a new job is given */
+    set_fn *set;
+    size_t offset;    /* of the member in weft_job */
+    double low, high; /* numbers: both allowed */
+    const char *what; /* numbers: "field periods, such as 0.5 or 1/3" */
+    int base;         /* choices: the value of the first */
+};
+
+static void *member(weft_job *job, const option_row *row) {
+    return (char *)job + row->offset;
+}
+
+static weft_status refuse(const option_row *row, const char *value, const char *right,
+                          weft_error *err) {
+    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes %s", row->shown.name,
+                   value, right);
+}
+
+/* ---- Setters ---- */
+
+static weft_status set_text(weft_job *job, const option_row *row, const char *value,
+                            weft_error *err) {
+    char **text = member(job, row), *copy = strdup(value);
+    if (!copy) return wf_fail(err, WEFT_NO_MEMORY, "--%s: out of memory", row->shown.name);
+    free(*text);
+    *text = copy;
+    return WEFT_OK;
+}
+
+static weft_status set_flag(weft_job *job, const option_row *row, const char *value,
+                            weft_error *err) {
+    if (*value)
+        return wf_fail(err, WEFT_USAGE, "--%s takes no value, and was given '%.200s'",
+                       row->shown.name, value);
+    *(bool *)member(job, row) = true;
+    return WEFT_OK;
+}
+
+/* Which of the words of row->shown.takes value is; -1: none. */
+static int choice_index(const option_row *row, const char *value) {
+    size_t length = strlen(value);
+    const char *word = row->shown.takes;
+    for (int index = 0;; index++) {
+        size_t word_length = strcspn(word, "|");
+        if (word_length == length && !strncmp(word, value, length)) return index;
+        word += word_length;
+        if (!*word++) return -1;
+    }
+}
+
+static weft_status refuse_choice(const option_row *row, const char *value, weft_error *err) {
+    char right[96];
+    snprintf(right, sizeof right, "one of %s", row->shown.takes);
+    return refuse(row, value, right, err);
+}
+
+static weft_status set_choice(weft_job *job, const option_row *row, const char *value,
+                              weft_error *err) {
+    int index = choice_index(row, value);
+    if (index < 0) return refuse_choice(row, value, err);
+    *(unsigned *)member(job, row) = (unsigned)(row->base + index);
+    return WEFT_OK;
+}
+
+/* Two words: the second means true. */
+static weft_status set_switch(weft_job *job, const option_row *row, const char *value,
+                              weft_error *err) {
+    int index = choice_index(row, value);
+    if (index < 0) return refuse_choice(row, value, err);
+    *(bool *)member(job, row) = index == 1;
+    return WEFT_OK;
+}
+
+static weft_status set_bits(weft_job *job, const option_row *row, const char *value,
+                            weft_error *err) {
+    if (choice_index(row, value) < 0) return refuse_choice(row, value, err);
+    *(int *)member(job, row) = atoi(value);
+    return WEFT_OK;
+}
+
+static weft_status refuse_number(const option_row *row, const char *value, weft_error *err) {
+    char right[160];
+    snprintf(right, sizeof right, "a number from %.10g to %.10g%s", row->low, row->high,
+             row->what);
+    return refuse(row, value, right, err);
+}
+
+static bool parse_within(const option_row *row, const char *value, bool rate,
+                         wf_rational *out) {
+    wf_rational number;
+    if (!(rate ? wf_rate_parse : wf_ratio_parse)(value, &number)) return false;
+    double size = wf_ratio_value(number);
+    if (size < row->low || size > row->high) return false;
+    *out = number;
+    return true;
+}
+
+static weft_status set_ratio(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    return parse_within(row, value, false, member(job, row)) ? WEFT_OK
+                                                             : refuse_number(row, value, err);
+}
+
+static weft_status set_rate(weft_job *job, const option_row *row, const char *value,
+                            weft_error *err) {
+    return parse_within(row, value, true, member(job, row)) ? WEFT_OK
+                                                            : refuse_number(row, value, err);
+}
+
+static weft_status set_width(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    weft_status status = set_ratio(job, row, value, err);
+    if (!status) job->width_given = true;
+    return status;
+}
+
+/* 360 degrees are one field period. */
+static weft_status set_angle(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    wf_rational degrees;
+    if (!parse_within(row, value, false, &degrees)) return refuse_number(row, value, err);
+    wf_rational width = wf_ratio_div(degrees, wf_ratio(360, 1));
+    if (!wf_ratio_given(width)) return refuse_number(row, value, err);
+    job->temporal_width = width;
+    job->angle_given = true;
+    return WEFT_OK;
+}
+
+static weft_status set_threads(weft_job *job, const option_row *row, const char *value,
+                               weft_error *err) {
+    wf_rational number = {0, 1};
+    bool all = !strcmp(value, "all");
+    if (!all && (!parse_within(row, value, false, &number) || number.den != 1))
+        return refuse_number(row, value, err);
+    job->threads = (int)number.num;
+    return WEFT_OK;
+}
+
+static weft_status set_raster(weft_job *job, const option_row *row, const char *value,
+                              weft_error *err) {
+    char why[512];
+    if (wf_raster_parse(value, &job->raster, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "--%s: %s", row->shown.name, why);
+}
+
+static weft_status set_aperture(weft_job *job, const option_row *row, const char *value,
+                                weft_error *err) {
+    char why[512];
+    if (wf_aperture_parse(value, &job->aperture, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "--%s: %s", row->shown.name, why);
+}
+
+static weft_status set_background(weft_job *job, const option_row *row, const char *value,
+                                  weft_error *err) {
+    if (wf_parse_rgb(value, job->background)) return WEFT_OK;
+    return refuse(row, value,
+                  "one number for all channels or three as r,g,b, scene-linear, each from 0 to "
+                  "65504, such as 0.18 or 0.2,0.2,0.3",
+                  err);
+}
+
+static weft_status set_chunk(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    if (wf_parse_chunk(value, &job->chunk, &job->chunk_count)) return WEFT_OK;
+    return refuse(
+        row, value,
+        "I/N, the I-th of N equal runs of frames with 1 <= I <= N <= 1000000, such as 1/4",
+        err);
+}
+
+static weft_status set_size(weft_job *job, const option_row *row, const char *value,
+                            weft_error *err) {
+    if (wf_parse_size(value, member(job, row))) return WEFT_OK;
+    return refuse(
+        row, value,
+        "a size from 1M to 1024T in bytes, or with K, M, G or T (and KiB ..) for powers "
+        "of 1024, KB .. for powers of 1000, such as 512M or 1.5G",
+        err);
+}
+
+/* What FF may be depends on the raster and is checked with it. */
+static weft_status set_timecode(weft_job *job, const option_row *row, const char *value,
+                                weft_error *err) {
+    if (wf_parse_timecode(value, &(wf_timecode){0})) return set_text(job, row, value, err);
+    return refuse(row, value, "HH:MM:SS:FF, or HH:MM:SS;FF for drop frame, up to 23:59:59",
+                  err);
+}
+
+/* Which of the numbers exist is seen when the input is. */
+static weft_status set_frames(weft_job *job, const option_row *row, const char *value,
+                              weft_error *err) {
+    wf_frame_range range;
+    weft_status status = wf_range_parse(value, WF_RANGE_MOST, &range, err);
+    wf_range_free(&range);
+    return status ? status : set_text(job, row, value, err);
+}
+
+/* ---- The table (cli.md) ---- */
+
+static const char shape[] = "Raster and aperture", timing[] = "Time", input[] = "Input",
+                  color[] = "Color", codes[] = "Codes", running[] = "Running";
+
+#define ROW(group, name, takes, preset, help, set_, ...)                                       \
+    { {name, takes, preset, help, group}, .set = set_, __VA_ARGS__ }
+#define AT(member)               .offset = offsetof(weft_job, member)
+#define FROM(low_, high_, what_) .low = low_, .high = high_, .what = what_
+#define INITIAL                  .initial = true
+
+static const option_row rows[] = {
+    ROW(shape, "raster", "NAME", "525i",
+        "What to make: a name that 'weft rasters' lists, or WxH@RATE(i|p|psf).", set_raster,
+        AT(raster), INITIAL),
+    ROW(shape, "aperture", "NAME", "shaped",
+        "How a pixel looks at the picture: one of those that 'weft filters' lists.",
+        set_aperture, AT(aperture), INITIAL),
+    ROW(shape, "fit", "stretch|crop|pad", "stretch",
+        "What to do with an input of another shape: stretch it, or scale it evenly and crop or "
+        "pad.",
+        set_choice, AT(fit), INITIAL),
+    ROW(shape, "input-par", "N:D", "from the files", "Pixel aspect ratio of the input.",
+        set_ratio, AT(input_par), FROM(0.01, 100, ", such as 10:11")),
+    ROW(shape, "background", "R,G,B", "0",
+        "Scene-linear color behind transparent and padded pictures; one number is a grey.",
+        set_background, AT(background), INITIAL),
+
+    ROW(timing, "temporal-width", "T", "the aperture's",
+        "How long a field looks, in field periods: 0 is an instant, 1 a whole field.",
+        set_width, AT(temporal_width), FROM(0, 64, " (field periods), such as 0.5 or 1/3")),
+    ROW(timing, "shutter-angle", "D", "the aperture's",
+        "The same in degrees: 360 are one field period.", set_angle, AT(temporal_width),
+        FROM(0, 64 * 360, " (degrees), such as 180")),
+    ROW(timing, "shutter-position", "start|center|end", "start",
+        "Whether a field's window starts, is centered or ends at its instant.", set_choice,
+        AT(shutter_position), INITIAL),
+    ROW(timing, "scan-skew", "S", "0",
+        "How much later the last line looks, in field periods: 1 is a tube camera.", set_ratio,
+        AT(scan_skew), FROM(0, 1, ", such as 1 or 0.5"), INITIAL),
+    ROW(timing, "subframe-rate", "R", "from the files",
+        "Subframes a second, of those that are selected.", set_rate, AT(subframe_rate),
+        FROM(0.001, 1e6, " (a second), such as 240 or 480000/1001")),
+    ROW(timing, "subframe-time", "start|center", "start",
+        "Whether subframe k stands for the time after k/R or about it.", set_switch,
+        AT(subframe_time_center), INITIAL),
+    ROW(timing, "timecode", "HH:MM:SS:FF", "00:00:00:00",
+        "Timecode of frame 0; a semicolon before FF counts drop frame.", set_timecode,
+        AT(timecode), INITIAL),
+
+    ROW(input, "frames", "A-BxS", "all",
+        "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",
+        set_frames, AT(frames)),
+    ROW(input, "layer", "NAME", "the unnamed one", "EXR layer to take: NAME.R, NAME.G, NAME.B.",
+        set_text, AT(layer)),
+    ROW(input, "part", "NAME", "the first picture",
+        "EXR part to take, by name or number from 0.", set_text, AT(part)),
+    ROW(input, "on-missing", "error|hold|black", "error",
+        "What to do about subframes that are needed and absent.", set_choice, AT(on_missing),
+        INITIAL),
+    ROW(input, "fix-nan", "box3|black|none|error", "box3",
+        "What NaN and Inf become: the mean of finite neighbours, black, themselves, an error.",
+        set_choice, AT(nan_fix), INITIAL),
+
+    ROW(color, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.", set_text,
+        AT(ocio)),
+    ROW(color, "from", "SPACE", "scene-linear Rec. 709", "Color space of the input.", set_text,
+        AT(from)),
+    ROW(color, "to", "SPACE", "the raster's", "Color space of the output.", set_text, AT(to)),
+    ROW(color, "display", "NAME", NULL, "Display of the configuration, instead of --to.",
+        set_text, AT(display)),
+    ROW(color, "view", "NAME", NULL, "View of that display.", set_text, AT(view)),
+    ROW(color, "look", "NAME", NULL, "Look to apply on the way.", set_text, AT(look)),
+
+    ROW(codes, "bits", "8|10|12|16", "the output's", "Bits a sample.", set_bits, AT(bits)),
+    ROW(codes, "range", "narrow|full", "the output's",
+        "Code range: narrow for video, full for R'G'B' pictures.", set_choice, AT(range),
+        .base = WF_RANGE_NARROW),
+    ROW(codes, "chroma", "bt601|121|box|444", "bt601",
+        "How chroma is brought to 4:2:2; 444 leaves it whole.", set_choice, AT(chroma),
+        INITIAL),
+    ROW(codes, "legalize", "none|clip", "none", "Whether to hold codes within the legal range.",
+        set_choice, AT(legalize), INITIAL),
+
+    ROW(running, "chunk", "I/N", "1/1",
+        "Make only the I-th of N runs of frames; all of them joined are the whole.", set_chunk,
+        AT(chunk), INITIAL),
+    ROW(running, "threads", "N", "all",
+        "How many processors to use; the result is the same for any number.", set_threads,
+        AT(threads), FROM(1, 1024, ", whole, or 'all'"), INITIAL),
+    ROW(running, "skip", "off|on", "on",
+        "Whether to leave out work that equal data make needless.", set_switch, AT(skip),
+        INITIAL),
+    ROW(running, "max-memory", "SIZE", "2G", "How much memory to use at most, such as 512M.",
+        set_size, AT(max_memory_bytes), INITIAL),
+    ROW(running, "overwrite", NULL, NULL, "Replace an output that exists.", set_flag,
+        AT(overwrite)),
+    ROW(running, "resume", NULL, NULL, "Make only what is not there yet.", set_flag,
+        AT(resume)),
+};
+
+#define ROWS (sizeof rows / sizeof *rows)
+
+/* Choices are stored through unsigned, which is what GCC and Clang make of these enums. */
+_Static_assert(sizeof(wf_fit) == sizeof(unsigned) && sizeof(wf_chroma) == sizeof(unsigned),
+               "enums are stored as unsigned");
+
+bool weft_option_at(size_t index, weft_option *out) {
+    if (index >= ROWS) return false;
+    *out = rows[index].shown;
+    return true;
+}
+
+static weft_status unknown_option(const char *name, weft_error *err) {
+    wf_near near = {.text = name};
+    for (size_t i = 0; i < ROWS; i++) wf_near_offer(&near, rows[i].shown.name);
+    if (near.best)
+        return wf_fail(err, WEFT_USAGE, "--%.200s: unknown option; did you mean --%s?", name,
+                       near.best);
+    return wf_fail(err, WEFT_USAGE,
+                   "--%.200s: unknown option; 'weft convert --help' lists them all", name);
+}
+
+weft_status weft_job_set(weft_job *job, const char *name, const char *value, weft_error *err) {
+    const option_row *row = rows, *end = rows + ROWS;
+    while (row < end && strcmp(row->shown.name, name)) row++;
+    if (row == end) return unknown_option(name, err);
+    if (!value) value = "";
+    if (!*value && row->shown.takes)
+        return wf_fail(err, WEFT_USAGE, "--%s needs a value: %s", name, row->shown.takes);
+    return row->set(job, row, value, err);
+}
+
+weft_status wf_job_preset(weft_job *job, weft_error *err) {
+    weft_status status = WEFT_OK;
+    for (size_t i = 0; i < ROWS && !status; i++)
+        if (rows[i].initial) status = rows[i].set(job, &rows[i], rows[i].shown.preset, err);
+    return status;
+}

@@ -1,0 +1,281 @@
+#include "convert/pipeline.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* Fields are finished in groups, so that a picture that does not change is inflated once a
+ * group and threads meet seldom; but a group's sums must come from the caches when they are
+ * finished. */
+#define GROUP_BYTES   ((size_t)24 << 20)
+#define MOST_IN_GROUP 16
+/* Sums carried from group to group, where windows overlap; beyond this subframes are read
+ * again. */
+#define CARRIED_BYTES ((size_t)128 << 20)
+
+double wf_now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void wf_worker_fail(wf_pipeline *p, wf_worker *worker, weft_status status) {
+    if (!worker->status) worker->status = status;
+    atomic_store(&p->stop, true);
+}
+
+weft_status wf_pipeline_status(const wf_pipeline *p, weft_error *err) {
+    if (p->job->cancelled) return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
+    for (int t = 0; t < p->threads; t++)
+        if (p->workers[t].status)
+            return wf_fail(err, p->workers[t].status, "%s", p->workers[t].error.text);
+    return WEFT_OK;
+}
+
+/* ---- Making ---- */
+
+/* Most fields after n that begin before field n's window ends; fields of one instant end
+ * together and are no overlap. */
+static int64_t overlap_of(const wf_setup *s, int64_t first, int64_t end) {
+    int64_t most = 0;
+    for (int64_t n = first, m = first; n < end; n++) {
+        wf_window window = wf_resampler_window(s->resampler, n);
+        if (m < n) m = n;
+        while (m + 1 < end &&
+               wf_resampler_window(s->resampler, m + 1).first < window.first + window.count)
+            m++;
+        wf_window last = wf_resampler_window(s->resampler, m);
+        bool same = last.first == window.first && last.count == window.count;
+        if (!same && m - n > most) most = m - n;
+    }
+    return most;
+}
+
+static void choose_groups(wf_pipeline *p) {
+    const wf_setup *s = p->setup;
+    size_t allowed = p->job->max_memory_bytes / 8;
+    size_t each = wf_resampler_field_bytes(s->resampler, false);
+    size_t group = (allowed < GROUP_BYTES ? allowed : GROUP_BYTES) / each;
+    p->group_most = group > MOST_IN_GROUP ? MOST_IN_GROUP : (int)group;
+    /* The two fields of a segmented frame see the same subframes. */
+    int fewest = p->job->raster.scan == WF_SEGMENTED ? 2 : 1;
+    if (p->group_most < fewest) p->group_most = fewest;
+    int64_t overlap = overlap_of(s, 0, s->end_field);
+    size_t carried = wf_resampler_field_bytes(s->resampler, true);
+    size_t room = (allowed < CARRIED_BYTES ? allowed : CARRIED_BYTES) / carried;
+    p->carried_most = (size_t)overlap <= room ? (int)overlap : 0;
+    /* A chunk that starts inside an overlap must add in the same order as a whole run. */
+    p->merge = p->job->skip && overlap == 0;
+}
+
+static weft_status make_worker(wf_pipeline *p, wf_worker *worker, weft_error *err) {
+    const wf_setup *s = p->setup;
+    size_t width = (size_t)p->job->raster.width_px;
+    weft_status status = wf_reader_new(&s->source, &worker->reader, err);
+    if (status) return status;
+    worker->scratch = wf_scratch_new(s->resampler, p->group_most + p->carried_most);
+    worker->line = malloc(3 * width * sizeof *worker->line);
+    worker->code_scratch = malloc((1 + wf_encode_scratch(&s->encoding)) * sizeof(float));
+    if (worker->scratch && worker->line && worker->code_scratch) return WEFT_OK;
+    return wf_fail(err, WEFT_NO_MEMORY, "no memory for the buffers of a thread");
+}
+
+static size_t sample_bytes(const wf_pipeline *p) {
+    return p->setup->sink->layout == WF_LINEAR ? sizeof(float) : sizeof(uint16_t);
+}
+
+static weft_status make_frame(wf_pipeline *p, weft_error *err) {
+    const wf_sink_options *o = &p->setup->sink_options;
+    size_t width = (size_t)o->raster->width_px, lines = (size_t)o->raster->lines;
+    for (int c = 0; c < 3; c++) {
+        p->stride[c] = c && o->subsampled ? width / 2 : width;
+        p->plane[c] = malloc(p->stride[c] * lines * sample_bytes(p));
+        if (!p->plane[c]) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
+    }
+    return WEFT_OK;
+}
+
+/* What a run holds at most, but for the libraries' own needs. */
+static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
+    const wf_resampler *rs = p->setup->resampler;
+    size_t bytes = (size_t)p->group_most * wf_resampler_field_bytes(rs, false) +
+                   (size_t)p->carried_most * wf_resampler_field_bytes(rs, true) +
+                   (size_t)p->threads * wf_scratch_bytes(rs, p->group_most + p->carried_most);
+    if (bytes <= p->job->max_memory_bytes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "this conversion needs %zu MB and --max-memory allows %zu MB; allow more, or use "
+        "fewer --threads",
+        bytes >> 20, p->job->max_memory_bytes >> 20);
+}
+
+static weft_status fill_pipeline(wf_pipeline *p, weft_error *err) {
+    choose_groups(p);
+    weft_status status = check_memory(p, err);
+    if (status) return status;
+    size_t flight = (size_t)(p->group_most + p->carried_most);
+    p->workers = calloc((size_t)p->threads, sizeof *p->workers);
+    p->flight = calloc(flight, sizeof *p->flight);
+    p->active = calloc(flight, sizeof *p->active);
+    p->spare = calloc(flight, sizeof *p->spare);
+    if (!p->workers || !p->flight || !p->active || !p->spare)
+        return wf_fail(err, WEFT_NO_MEMORY, "no memory for %d threads", p->threads);
+    for (int t = 0; !status && t < p->threads; t++)
+        status = make_worker(p, &p->workers[t], err);
+    return status ? status : make_frame(p, err);
+}
+
+weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **out,
+                            weft_error *err) {
+    wf_pipeline *p = calloc(1, sizeof *p);
+    if (!p) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the job");
+    p->job = job;
+    p->setup = setup;
+    p->threads = job->threads > 0 ? job->threads : omp_get_num_procs();
+    p->frames_total = setup->end_frame - setup->first_frame;
+    p->started_s = wf_now_s();
+    weft_status status = fill_pipeline(p, err);
+    if (status) {
+        wf_pipeline_free(p);
+        return status;
+    }
+    *out = p;
+    return WEFT_OK;
+}
+
+static void land_all(wf_pipeline *p) {
+    for (int f = 0; f < p->flight_count; f++) wf_field_free(p->flight[f]);
+    for (int f = 0; f < p->spare_count; f++) wf_field_free(p->spare[f]);
+    p->flight_count = p->spare_count = 0;
+}
+
+void wf_pipeline_free(wf_pipeline *p) {
+    if (!p) return;
+    land_all(p);
+    for (int t = 0; p->workers && t < p->threads; t++) {
+        wf_reader_free(p->workers[t].reader);
+        wf_scratch_free(p->workers[t].scratch);
+        free(p->workers[t].line);
+        free(p->workers[t].code_scratch);
+    }
+    free(p->workers);
+    free(p->flight);
+    free(p->active);
+    free(p->spare);
+    for (int c = 0; c < 3; c++) free(p->plane[c]);
+    free(p);
+}
+
+/* ---- Fields to frames ---- */
+
+static void *frame_line(const wf_pipeline *p, int c, int j) {
+    return (char *)p->plane[c] + (size_t)j * p->stride[c] * sample_bytes(p);
+}
+
+/* Line l of a field, through colour, into the frame. */
+static void finish_line(wf_pipeline *p, wf_worker *worker, const wf_field *field, int parity,
+                        int l) {
+    const wf_setup *s = p->setup;
+    size_t width = (size_t)p->job->raster.width_px;
+    int j = parity + l * wf_raster_line_step(&p->job->raster);
+    bool linear = s->sink->layout == WF_LINEAR;
+    float *rgb[3];
+    uint16_t *code[3];
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = linear ? frame_line(p, c, j) : worker->line + (size_t)c * width;
+        code[c] = frame_line(p, c, j);
+    }
+    double start = wf_now_s();
+    wf_field_line(field, l, worker->scratch, rgb);
+    double resampled = wf_now_s();
+    worker->resample_s += resampled - start;
+    if (s->transform.apply)
+        s->transform.apply(s->transform.self, rgb[0], rgb[1], rgb[2], width);
+    if (!linear) wf_encode_line(&s->encoding, rgb, worker->code_scratch, code);
+    worker->color_s += wf_now_s() - resampled;
+}
+
+static void finish_field(wf_pipeline *p, const wf_field *field, int64_t index) {
+    int parity = wf_raster_parity(&p->job->raster, index);
+    int lines = wf_raster_field_lines(&p->job->raster, parity);
+#pragma omp parallel for num_threads(p->threads) schedule(dynamic, 4)
+    for (int l = 0; l < lines; l++)
+        finish_line(p, &p->workers[omp_get_thread_num()], field, parity, l);
+}
+
+static weft_status write_frame(wf_pipeline *p, int64_t index, weft_error *err) {
+    wf_frame frame = {.index = index};
+    for (int c = 0; c < 3; c++) {
+        frame.plane[c] = p->plane[c];
+        frame.stride[c] = p->stride[c];
+    }
+    double start = wf_now_s();
+    weft_status status = p->setup->sink->write(p->sink, &frame, err);
+    p->write_s += wf_now_s() - start;
+    p->frames_done++;
+    if (p->job->progress) {
+        weft_progress progress = {p->frames_done, p->frames_total, wf_now_s() - p->started_s,
+                                  "convert"};
+        p->job->progress(&progress, p->job->progress_user);
+    }
+    return status;
+}
+
+static void land_first(wf_pipeline *p) {
+    p->spare[p->spare_count++] = p->flight[0];
+    p->flight_count--;
+    p->flight_first++;
+    memmove(p->flight, p->flight + 1, (size_t)p->flight_count * sizeof *p->flight);
+}
+
+static weft_status finish_group(wf_pipeline *p, int64_t first, int64_t end, weft_error *err) {
+    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
+    for (int64_t n = first; n < end; n++) {
+        if (p->job->cancelled) return wf_pipeline_status(p, err);
+        finish_field(p, p->flight[0], n);
+        land_first(p);
+        if (n % per_frame != per_frame - 1) continue;
+        weft_status status = write_frame(p, n / per_frame, err);
+        if (status) return status;
+    }
+    return WEFT_OK;
+}
+
+weft_status wf_pipeline_frames(wf_pipeline *p, int64_t first, int64_t end, weft_error *err) {
+    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
+    int64_t past = end * per_frame;
+    p->end_field = past;
+    land_all(p);
+    p->flight_first = first * per_frame;
+    p->next_subframe = 0;
+    for (int64_t n = first * per_frame; n < past;) {
+        int64_t group_end = n + p->group_most < past ? n + p->group_most : past;
+        weft_status status = wf_batch_read(p, n, group_end, err);
+        if (!status) status = finish_group(p, n, group_end, err);
+        if (status) return status;
+        n = group_end;
+    }
+    return WEFT_OK;
+}
+
+wf_source_counts wf_pipeline_counts(const wf_pipeline *p) {
+    wf_source_counts sum = {0};
+    for (int t = 0; t < p->threads; t++) {
+        wf_source_counts one = wf_reader_counts(p->workers[t].reader);
+        sum.chunks_decoded += one.chunks_decoded;
+        sum.chunks_reused += one.chunks_reused;
+        sum.nan_fixed += one.nan_fixed;
+    }
+    return sum;
+}
+
+wf_worker wf_pipeline_times(const wf_pipeline *p) {
+    wf_worker sum = {0};
+    for (int t = 0; t < p->threads; t++) {
+        sum.decode_s += p->workers[t].decode_s;
+        sum.resample_s += p->workers[t].resample_s;
+        sum.color_s += p->workers[t].color_s;
+    }
+    return sum;
+}

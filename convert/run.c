@@ -1,0 +1,166 @@
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "convert/pipeline.h"
+#include "convert/report.h"
+
+void wf_job_warn(const weft_job *job, const char *format, ...) {
+    if (!job->warning) return;
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    job->warning(text, job->warning_user);
+}
+
+/* ---- Missing subframes ---- */
+
+/* The numbers of the selection that have no file. */
+static wf_rational *list_missing(const wf_sequence *sequence) {
+    wf_rational *numbers = malloc((sequence->missing + 1) * sizeof *numbers);
+    size_t n = 0;
+    for (size_t k = 0; numbers && k < sequence->count; k++)
+        if (!sequence->refs[k].path) numbers[n++] = sequence->refs[k].number;
+    return numbers;
+}
+
+static void number_text(wf_rational number, char *text, size_t size) {
+    if (number.den == 1)
+        snprintf(text, size, "%lld", (long long)number.num);
+    else
+        snprintf(text, size, "%.9g", wf_ratio_value(number));
+}
+
+/* How many missing subframes the fields of this chunk need; *first is the first of them. */
+static size_t count_needed(const wf_setup *s, const weft_job *job, int64_t *first) {
+    int per_frame = wf_raster_fields_per_frame(&job->raster);
+    size_t needed = 0;
+    int64_t k = 0;
+    for (int64_t n = s->first_frame * per_frame; n < s->end_frame * per_frame; n++) {
+        wf_window window = wf_resampler_window(s->resampler, n);
+        for (k = k > window.first ? k : window.first; k < window.first + window.count; k++)
+            if (!s->sequence.refs[k].path && !needed++) *first = k;
+    }
+    return needed;
+}
+
+static weft_status face_missing(weft_job *job, const wf_setup *s, bool *degraded,
+                                weft_error *err) {
+    int64_t first = 0;
+    size_t needed = s->sequence.missing ? count_needed(s, job, &first) : 0;
+    if (!needed) return WEFT_OK;
+    char number[32];
+    number_text(s->sequence.refs[first].number, number, sizeof number);
+    if (job->on_missing == WF_MISSING_ERROR)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: subframe %s is missing (%zu of the %zu selected are missing and needed); "
+            "render it, or give --on-missing hold or black",
+            job->inputs[0], number, needed, s->sequence.count);
+    *degraded = true;
+    wf_job_warn(
+        job, "%s: %zu missing subframes, the first is %s: %s", job->inputs[0], needed, number,
+        job->on_missing == WF_MISSING_HOLD ? "their neighbours are held" : "they are black");
+    return WEFT_OK;
+}
+
+/* ---- Running ---- */
+
+/* Frames first <= n < *end that are to be written; with --resume those whose files are there
+ * are left out. False when nothing remains. */
+static bool next_frames(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
+    bool leave_out = job->resume && s->sink->sequence;
+    while (leave_out && *first < s->end_frame && wf_sink_present(s->sink, job->output, *first))
+        ++*first;
+    *end = leave_out && *first < s->end_frame ? *first + 1 : s->end_frame;
+    while (leave_out && *end < s->end_frame && !wf_sink_present(s->sink, job->output, *end))
+        ++*end;
+    return *first < s->end_frame;
+}
+
+static weft_status convert_frames(wf_pipeline *p, weft_error *err) {
+    int64_t first = p->setup->first_frame, end;
+    weft_status status = WEFT_OK;
+    while (!status && next_frames(p->job, p->setup, &first, &end)) {
+        status = wf_pipeline_frames(p, first, end, err);
+        first = end;
+    }
+    return status;
+}
+
+static weft_status run_with_sink(wf_pipeline *p, weft_error *err) {
+    const wf_setup *s = p->setup;
+    weft_status status = s->sink->open(&s->sink_options, &p->sink, err);
+    if (status) return status;
+    status = convert_frames(p, err);
+    if (status) {
+        s->sink->abandon(p->sink);
+        return status;
+    }
+    double start = wf_now_s();
+    status = s->sink->commit(p->sink, err);
+    p->write_s += wf_now_s() - start;
+    return status;
+}
+
+static void write_report(weft_job *job, const wf_setup *s, const wf_pipeline *p,
+                         wf_report *report) {
+    wf_rational *missing = list_missing(&s->sequence);
+    report->raster = &job->raster;
+    report->listed = (int64_t)s->sequence.count;
+    report->missing = missing;
+    report->missing_count = missing ? s->sequence.missing : 0;
+    if (p) {
+        wf_source_counts counts = wf_pipeline_counts(p);
+        wf_worker times = wf_pipeline_times(p);
+        report->frames = p->frames_done;
+        report->fields = p->frames_done * wf_raster_fields_per_frame(&job->raster);
+        report->opened = p->opened;
+        report->chunks_decoded = counts.chunks_decoded;
+        report->chunks_reused = counts.chunks_reused;
+        report->nan_fixed = counts.nan_fixed;
+        report->decode_s = times.decode_s;
+        report->resample_s = times.resample_s;
+        report->color_s = times.color_s;
+        report->write_s = p->write_s;
+    }
+    if (s->sink && s->sink->layout != WF_LINEAR)
+        report->legal = (wf_report_legal){job->legalize == WF_LEGAL_CLIP ? "clip" : "none",
+                                          s->sink_options.full_range ? "full" : "narrow",
+                                          s->sink_options.bits};
+    free(job->report);
+    job->report = wf_report_json(report);
+    free(missing);
+}
+
+static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, bool *degraded,
+                             weft_error *err) {
+    if (job->resume && !s->sink->sequence && wf_sink_present(s->sink, job->output, -1))
+        return WEFT_OK;
+    weft_status status = face_missing(job, s, degraded, err);
+    if (!status) status = wf_pipeline_new(job, s, p, err);
+    if (!status) status = run_with_sink(*p, err);
+    if (!status && wf_pipeline_counts(*p).nan_fixed) *degraded = true;
+    return status;
+}
+
+weft_status weft_job_run(weft_job *job, weft_error *err) {
+    double start = wf_now_s();
+    weft_error own;
+    if (!err) err = &own;
+    err->text[0] = '\0';
+    wf_setup setup = {0};
+    wf_pipeline *pipeline = NULL;
+    wf_report report = {.command = "convert"};
+    weft_status status = wf_job_check(job, err);
+    if (!status) status = wf_setup_make(job, &setup, err);
+    if (!status) status = run_setup(job, &setup, &pipeline, &report.degraded, err);
+    report.wall_s = wf_now_s() - start;
+    report.error = status ? err->text : NULL;
+    write_report(job, &setup, pipeline, &report);
+    wf_pipeline_free(pipeline);
+    wf_setup_free(&setup);
+    return status ? status : report.degraded ? WEFT_DEGRADED : WEFT_OK;
+}

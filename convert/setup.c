@@ -1,0 +1,326 @@
+#include "convert/setup.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "color/ocio.h"
+#include "convert/module.h"
+
+/* ---- Input ---- */
+
+static const wf_subframe_ref *first_present(const wf_sequence *sequence) {
+    for (size_t k = 0; k < sequence->count; k++)
+        if (sequence->refs[k].path) return &sequence->refs[k];
+    return NULL;
+}
+
+static bool shows_background(const weft_job *job) {
+    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
+}
+
+static weft_status find_input(weft_job *job, wf_setup *s, weft_error *err) {
+    weft_status status =
+        wf_sequence_expand(job->inputs, job->input_count, job->frames, &s->sequence, err);
+    if (status) return status;
+    const wf_subframe_ref *ref = first_present(&s->sequence);
+    if (!ref)
+        return wf_fail(err, WEFT_FAILED, "%s: no subframe of the selection exists",
+                       job->inputs[0]);
+    s->source = (wf_source_options){
+        .layer = job->layer,
+        .part = job->part,
+        .want_alpha = shows_background(job),
+        .nan_fix = job->nan_fix,
+        .max_memory_bytes = job->max_memory_bytes,
+    };
+    wf_subframe *subframe;
+    status = wf_subframe_open(ref->path, ref->part, &s->source, &subframe, err);
+    if (status) return status;
+    s->first = *wf_subframe_info(subframe);
+    wf_subframe_close(subframe);
+    return WEFT_OK;
+}
+
+static weft_status settle_rate(const weft_job *job, const wf_setup *s, wf_rational *rate,
+                               weft_error *err) {
+    *rate = job->subframe_rate;
+    if (!wf_ratio_given(*rate) && wf_ratio_given(s->first.rate))
+        *rate = wf_ratio_div(s->first.rate, s->sequence.step);
+    if (wf_ratio_given(*rate) && rate->num > 0) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: the files do not say how many subframes a second they are; give "
+                   "--subframe-rate, such as --subframe-rate 240 or 480000/1001",
+                   job->inputs[0]);
+}
+
+/* ---- Geometry ---- */
+
+/* The simplest ratio within float32's accuracy of value: files hold 10:11 as 0.909090936. */
+static wf_rational simplest_ratio(double value) {
+    int64_t num[2] = {1, 0}, den[2] = {0, 1};
+    double rest = value;
+    for (int step = 0; step < 16; step++) {
+        int64_t whole = (int64_t)floor(rest);
+        int64_t n = whole * num[0] + num[1], d = whole * den[0] + den[1];
+        num[1] = num[0], num[0] = n;
+        den[1] = den[0], den[0] = d;
+        if (fabs((double)n / (double)d - value) <= 2e-7 * value) break;
+        rest = 1 / (rest - (double)whole);
+    }
+    return wf_ratio(num[0], den[0]);
+}
+
+static wf_rational input_pixel_aspect(const weft_job *job, const wf_setup *s) {
+    if (wf_ratio_given(job->input_par)) return job->input_par;
+    double aspect = s->first.pixel_aspect;
+    return aspect > 1e-3 && aspect < 1e3 ? simplest_ratio(aspect) : wf_ratio(1, 1);
+}
+
+static void warn_of_aspect(const weft_job *job, const wf_setup *s, wf_rational par) {
+    double width = s->first.display.x1 - s->first.display.x0;
+    double height = s->first.display.y1 - s->first.display.y0;
+    double input = width / height * wf_ratio_value(par);
+    double raster = (double)job->raster.width_px / job->raster.lines *
+                    wf_ratio_value(job->raster.pixel_aspect);
+    if (job->fit == WF_FIT_STRETCH && fabs(input / raster - 1) > 0.01)
+        wf_job_warn(
+            job,
+            "the input's picture is %.4f:1 (%.0fx%.0f, pixels %" PRId64 ":%" PRId64
+            ") and the raster's %.4f:1 (%s): it will be stretched; --input-par says what "
+            "the input's pixels are, --fit crop or pad keeps its shape",
+            input, width, height, par.num, par.den, raster, job->raster.name);
+}
+
+/* Cell sizes for crop and pad: one scale for both axes, in the shape of the pixels. */
+static void fit_evenly(const weft_job *job, wf_rational par, wf_fitting *x, wf_fitting *y) {
+    wf_rational shape = wf_ratio_div(par, job->raster.pixel_aspect);
+    wf_rational by_height = y->cell, by_width = wf_ratio_div(x->cell, shape);
+    bool width_larger = wf_ratio_value(by_width) > wf_ratio_value(by_height);
+    bool take_width = width_larger == (job->fit == WF_FIT_CROP);
+    y->cell = take_width ? by_width : by_height;
+    x->cell = wf_ratio_mul(y->cell, shape);
+    x->padded = y->padded = job->fit == WF_FIT_PAD;
+}
+
+static void fit_picture(const weft_job *job, const wf_setup *s, wf_fitting *x, wf_fitting *y) {
+    wf_rational par = input_pixel_aspect(job, s);
+    *x = (wf_fitting){.pixels = job->raster.width_px,
+                      .cells = s->first.display.x1 - s->first.display.x0};
+    *y = (wf_fitting){.pixels = job->raster.lines,
+                      .cells = s->first.display.y1 - s->first.display.y0};
+    x->cell = wf_ratio(x->pixels, x->cells);
+    y->cell = wf_ratio(y->pixels, y->cells);
+    warn_of_aspect(job, s, par);
+    if (job->fit != WF_FIT_STRETCH) fit_evenly(job, par, x, y);
+}
+
+static wf_rational temporal_width(const weft_job *job) {
+    return wf_ratio_given(job->temporal_width) ? job->temporal_width
+                                               : job->aperture.kind->default_width;
+}
+
+/* Bands follow the chunks of the first file; others may differ and cost a little more. Whole
+ * pictures are cut so that a band's sums stay in a core's cache. */
+static void choose_bands(const wf_setup *s, wf_resample_desc *desc) {
+    desc->band_rows = s->first.band_lines > 0 && !s->first.whole ? s->first.band_lines : 16;
+    while (desc->band_rows < 16) desc->band_rows *= 2;
+    desc->band_origin = s->first.data.y0 - s->first.display.y0;
+}
+
+static weft_status make_resampler(weft_job *job, wf_setup *s, weft_error *err) {
+    wf_rational rate = {0, 0};
+    weft_status status = settle_rate(job, s, &rate, err);
+    if (status) return status;
+    wf_resample_desc desc = {
+        .raster = &job->raster,
+        .aperture = job->aperture,
+        .timing = {.raster = &job->raster,
+                   .subframe_rate = rate,
+                   .subframe_center = job->subframe_time_center,
+                   .subframes = (int64_t)s->sequence.count,
+                   .width = temporal_width(job),
+                   .position = job->shutter_position,
+                   .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)},
+        .channels = s->source.want_alpha && s->first.has_alpha ? 4 : 3,
+        .background = {job->background[0], job->background[1], job->background[2]},
+    };
+    fit_picture(job, s, &desc.x, &desc.y);
+    choose_bands(s, &desc);
+    int64_t frames = wf_timing_frames(&desc.timing);
+    if (frames < 1)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: %zu subframes at %" PRId64 "/%" PRId64
+            " a second do not fill one frame of %s; select more, or check --subframe-rate",
+            job->inputs[0], s->sequence.count, rate.num, rate.den, job->raster.name);
+    s->first_frame = frames * (job->chunk - 1) / job->chunk_count;
+    s->end_frame = frames * job->chunk / job->chunk_count;
+    s->end_field = frames * wf_raster_fields_per_frame(&job->raster);
+    char why[512];
+    if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
+    return WEFT_OK;
+}
+
+/* ---- Colour ---- */
+
+static const struct {
+    const char *space;
+    wf_luma luma;
+} raster_colors[] = {
+    [WF_601_525] = {"rec601-525", WF_LUMA_601},
+    [WF_601_625] = {"rec601-625", WF_LUMA_601},
+    [WF_709] = {"rec709", WF_LUMA_709},
+    [WF_2020] = {"rec2020", WF_LUMA_2020},
+};
+
+static const char *given(const char *text) {
+    return text && *text ? text : NULL;
+}
+
+/* $OCIO names the studio's configuration; a job that names its own wins. */
+static const char *foreign_config(const weft_job *job) {
+    return job->ocio ? job->ocio : given(secure_getenv("OCIO"));
+}
+
+static weft_status open_ocio(const wf_ocio_query *query, wf_setup *s, weft_error *err) {
+    void *symbol;
+    weft_status status = wf_module_symbol("ocio", "wf_ocio_open", &symbol, err);
+    if (status) return status;
+    wf_ocio_open_fn *open;
+    memcpy(&open, &symbol, sizeof open);
+    char why[900];
+    if (!open(query, &s->transform, why, sizeof why))
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    return WEFT_OK;
+}
+
+static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error *err) {
+    const char *config = foreign_config(job),
+               *raster_space = raster_colors[job->raster.matrix].space;
+    bool by_display = job->display || job->view;
+    const char *to = job->to ? job->to : config || by_display ? NULL : raster_space;
+    snprintf(s->color_space, sizeof s->color_space, "%s",
+             to             ? to
+             : job->view    ? job->view
+             : job->display ? job->display
+                            : "");
+    if (!config && !by_display && !job->look) {
+        char why[900];
+        if (wf_builtin_transform(job->from ? job->from : "lin_rec709", to, &s->transform, why,
+                                 sizeof why))
+            return WEFT_OK;
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    }
+    const wf_ocio_query query = {config, job->from, to, job->display, job->view, job->look};
+    return open_ocio(&query, s, err);
+}
+
+static bool left_linear(const weft_job *job, const wf_sink_kind *sink) {
+    return sink->layout == WF_LINEAR && !job->to && !job->display && !job->view && !job->look;
+}
+
+static weft_status choose_color(const weft_job *job, wf_setup *s, weft_error *err) {
+    if (left_linear(job, s->sink)) {
+        snprintf(s->color_space, sizeof s->color_space, "%s",
+                 job->from ? job->from : "lin_rec709");
+        return WEFT_OK;
+    }
+    if (job->nan_fix == WF_NAN_NONE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--fix-nan none is for linear EXR output only: %s cannot "
+                       "hold NaN; take box3, black or error",
+                       job->output);
+    weft_status status = choose_transform(job, s, err);
+    if (status) return status;
+    s->encoding = (wf_encoding){
+        .luma = raster_colors[job->raster.matrix].luma,
+        .chroma = job->chroma,
+        .legalize = job->legalize,
+        .ycbcr = s->sink->layout == WF_YCBCR,
+        .full_range = s->sink_options.full_range,
+        .bits = s->sink_options.bits,
+        .width_px = job->raster.width_px,
+    };
+    return WEFT_OK;
+}
+
+/* ---- Output ---- */
+
+static int list_bits(unsigned mask, char *text, size_t size) {
+    int used = 0;
+    for (int bits = 1; bits < 32; bits++)
+        if (mask & 1u << bits)
+            used += snprintf(text + used, size - (size_t)used, "%s%d", used ? ", " : "", bits);
+    return used;
+}
+
+static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, int bits,
+                                weft_error *err) {
+    if (sink->layout != WF_LINEAR && !(sink->bits_mask & 1u << bits)) {
+        char there[64];
+        list_bits(sink->bits_mask, there, sizeof there);
+        return wf_fail(err, WEFT_USAGE, "%s: %s takes --bits %s, not %d", job->output,
+                       sink->name, there, bits);
+    }
+    bool subsampled = sink->layout == WF_YCBCR && job->chroma != WF_CHROMA_444;
+    if (subsampled && job->raster.width_px % 2)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: 4:2:2 takes an even width, and %s is %d pixels wide; "
+                       "change the raster or give --chroma 444",
+                       job->output, job->raster.name, job->raster.width_px);
+    if (sink->fixed_422 && !subsampled)
+        return wf_fail(err, WEFT_USAGE, "%s: %s is always 4:2:2; leave out --chroma 444",
+                       job->output, sink->name);
+    if (job->chunk_count > 1 && !sink->joins)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: chunks of %s cannot be joined; write an image sequence, "
+                       ".y4m, .v210 or .uyvy",
+                       job->output, sink->name);
+    return WEFT_OK;
+}
+
+static weft_status choose_sink(const weft_job *job, wf_setup *s, weft_error *err) {
+    s->sink = wf_sink_for(job->output, err);
+    if (!s->sink) return WEFT_USAGE;
+    int bits = job->bits ? job->bits : s->sink->default_bits;
+    weft_status status = check_output(job, s->sink, bits, err);
+    if (status) return status;
+    bool full =
+        job->range == WF_RANGE_UNSET ? s->sink->full_range : job->range == WF_RANGE_FULL;
+    s->sink_options = (wf_sink_options){
+        .output = job->output,
+        .raster = &job->raster,
+        .layout = s->sink->layout,
+        .bits = s->sink->layout == WF_LINEAR ? 32 : bits,
+        .full_range = full,
+        .subsampled = s->sink->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
+        .stream_header = job->chunk == 1,
+        .timecode = job->timecode,
+        .color_space = s->color_space,
+        .overwrite = job->overwrite,
+        .resume = job->resume,
+    };
+    return WEFT_OK;
+}
+
+weft_status wf_setup_make(weft_job *job, wf_setup *s, weft_error *err) {
+    *s = (wf_setup){0};
+    weft_status status = choose_sink(job, s, err);
+    if (!status) status = choose_color(job, s, err);
+    if (!status) status = find_input(job, s, err);
+    if (!status) status = make_resampler(job, s, err);
+    s->sink_options.first_frame = s->first_frame;
+    s->sink_options.frame_count = s->end_frame - s->first_frame;
+    return status;
+}
+
+void wf_setup_free(wf_setup *s) {
+    wf_sequence_free(&s->sequence);
+    wf_resampler_free(s->resampler);
+    if (s->transform.free) s->transform.free(s->transform.self);
+    *s = (wf_setup){0};
+}
