@@ -1,0 +1,48 @@
+#ifndef WF_CONVERT_CMD_H
+#define WF_CONVERT_CMD_H
+
+#include "convert/weft.h"
+
+/* An option that a command has of its own, beside those of a job. Given, it is stored in the
+ * command's state: a flag as a bool, anything else as a const char * that borrows from argv.
+ * The last of several wins. */
+typedef struct wf_cmd_option {
+    weft_option shown;
+    char letter; /* "-o"; 0: none */
+    size_t offset;
+} wf_cmd_option;
+
+/* What a command takes and says of itself: the parser and the help are made of it. */
+typedef struct wf_cmd {
+    const char *name;
+    const char *operands; /* "INPUT... -o OUTPUT" */
+    const char *summary;  /* one line */
+    const char *text;     /* before the options: what it does, examples */
+    const char *notes;    /* after them; NULL: nothing */
+    const wf_cmd_option *options;
+    size_t option_count;
+    const char *const *job_options; /* names of weft_job_set's that it takes, ended by NULL;
+                                       NULL: every one */
+    weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
+} wf_cmd;
+
+extern const wf_cmd wf_cmd_convert, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info;
+
+/* Reads a command's arguments into its state (the struct its options' offsets count in) and
+ * job. Operands are moved to the front of argv; *operand_count says how many. --name value,
+ * --name=value, -x value and -xvalue, in any order; -- ends the options. */
+weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, weft_job *job,
+                         int *operand_count, weft_error *err);
+
+void wf_cmd_help(const wf_cmd *cmd);
+
+/* Prints what wf_json_finish returned, and frees it. */
+weft_status wf_cmd_print_json(char *text, weft_error *err);
+
+/* "weft: " and a message on standard error, colored on a terminal unless NO_COLOR is set. */
+void wf_cmd_say(const char *kind, const char *text);
+
+/* Which signal asked the program to stop; 0: none. */
+int wf_cmd_signal(void);
+
+#endif

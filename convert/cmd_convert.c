@@ -1,0 +1,195 @@
+#include <inttypes.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "convert/cmd.h"
+#include "convert/fail.h"
+#include "convert/outfile.h"
+#include "convert/progress.h"
+
+typedef struct convert_state {
+    const char *output, *progress, *report;
+    bool quiet;
+    wf_meter meter;
+} convert_state;
+
+/* ---- Signals ---- */
+
+/* What the handler needs; written before it is installed. */
+static weft_job *running_job;
+static volatile sig_atomic_t caught;
+
+int wf_cmd_signal(void) {
+    return caught;
+}
+
+/* How long a job may take to stop: it cannot see that it should while a reader that sleeps
+ * keeps it waiting. */
+static const struct itimerval patience = {.it_value = {.tv_sec = 1, .tv_usec = 700000}};
+
+static void give_up(int number) {
+    (void)number;
+    _exit(128 + caught);
+}
+
+/* The first signal asks the job to stop; a second one of any kind ends the program at once. */
+static void on_signal(int number) {
+    caught = number;
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
+    weft_job_cancel(running_job);
+    setitimer(ITIMER_REAL, &patience, NULL);
+}
+
+/* SIGHUP that nohup has ignored stays ignored. SIGINT does not, which shells ignore in whatever
+ * a script starts with '&': a job can be asked to stop whoever started it. */
+static void catch_signals(weft_job *job) {
+    const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+    struct sigaction old;
+    running_job = job;
+    signal(SIGALRM, give_up);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    if (!sigaction(SIGHUP, NULL, &old) && old.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &action, NULL);
+}
+
+static void ignore_signals(void) {
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
+    signal(SIGHUP, SIG_IGN);
+    signal(SIGALRM, SIG_IGN);
+}
+
+/* ---- The command ---- */
+
+static void on_warning(const char *text, void *user) {
+    convert_state *state = user;
+    if (state->quiet) return;
+    wf_meter_clear(&state->meter);
+    wf_cmd_say("warning: ", text);
+}
+
+static weft_status check_state(convert_state *state, weft_error *err) {
+    if (!wf_meter_init(&state->meter, state->quiet ? "none" : state->progress))
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
+            state->progress);
+    if (state->report && state->output && !strcmp(state->report, "-") &&
+        !strcmp(state->output, "-"))
+        return wf_fail(err, WEFT_USAGE,
+                       "--report and the output cannot both be standard output");
+    return WEFT_OK;
+}
+
+static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, convert_state *state,
+                            weft_job *job, weft_error *err) {
+    int inputs = 0;
+    weft_status status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
+    if (!status) status = check_state(state, err);
+    for (int i = 0; i < inputs && !status; i++) status = weft_job_add_input(job, argv[i], err);
+    if (!status && state->output) status = weft_job_set_output(job, state->output, err);
+    return status;
+}
+
+static weft_status write_report(const char *path, const weft_job *job, weft_error *err) {
+    const char *json = weft_job_report(job);
+    if (!strcmp(json, "{}")) return WEFT_OK; /* the run did not get far enough to have one */
+    wf_outfile *file;
+    weft_status status = wf_outfile_open(path, true, &file, err);
+    if (status) return status;
+    status = wf_outfile_write(file, json, strlen(json), err);
+    if (!status) return wf_outfile_commit(file, err);
+    wf_outfile_abandon(file);
+    return status;
+}
+
+static void say_done(const convert_state *state) {
+    const weft_progress *p = &state->meter.last;
+    char text[128];
+    snprintf(text, sizeof text, "%" PRId64 " frames in %.2f s", p->frames_done, p->seconds);
+    if (!state->quiet && state->meter.show && !state->progress) wf_cmd_say("", text);
+}
+
+static weft_status run_job(convert_state *state, weft_job *job, weft_error *err) {
+    weft_job_on_progress(job, wf_meter_update, &state->meter);
+    weft_job_on_warning(job, on_warning, state);
+    catch_signals(job);
+    weft_status status = weft_job_run(job, err);
+    ignore_signals(); /* the job is about to be freed, and what is left takes no time */
+    wf_meter_clear(&state->meter);
+    bool finished = status == WEFT_OK || status == WEFT_DEGRADED;
+    if (finished) say_done(state);
+    if (!state->report) return status;
+    weft_status written = write_report(state->report, job, finished ? err : NULL);
+    return finished && written ? written : status;
+}
+
+static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    convert_state state = {0};
+    weft_job *job = weft_job_new();
+    if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    weft_status status = fill_job(cmd, argc, argv, &state, job, err);
+    if (!status) status = run_job(&state, job, err);
+    weft_job_free(job);
+    return status;
+}
+
+static const char output[] = "Output and messages";
+
+static const wf_cmd_option options[] = {
+    {{"output", "OUTPUT", NULL,
+      "Where to write: .y4m, .v210, .uyvy, or a sequence such as out.####.dpx (exr, tif, png); "
+      "- is "
+      "Y4M on standard output.",
+      output},
+     'o',
+     offsetof(convert_state, output)},
+    {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
+      "How to show progress, on standard error.", output},
+     0,
+     offsetof(convert_state, progress)},
+    {{"quiet", NULL, NULL, "Say nothing but errors.", output},
+     'q',
+     offsetof(convert_state, quiet)},
+    {{"report", "FILE", NULL, "Write what was done as JSON, also when it failed.", output},
+     0,
+     offsetof(convert_state, report)},
+};
+
+const wf_cmd wf_cmd_convert = {
+    .name = "convert",
+    .operands = "INPUT... -o OUTPUT",
+    .summary = "subframes to interlaced video",
+    .text =
+        "Turns pictures rendered many times a field into broadcast video. Every field sees\n"
+        "the subframes of its own time through an aperture, in linear light.\n"
+        "\n"
+        "INPUT is a sequence (shot.####.exr, shot.%04d.exr, subframes as shot.#.#.exr), a\n"
+        "directory, or files in order. Eight subframes a field of 525-line video:\n"
+        "\n"
+        "  weft convert shot.####.exr --subframe-rate 480000/1001 -o shot.y4m\n"
+        "\n"
+        "The same as 1080i at 25 frames a second, 400 subframes a second, in 10-bit DPX:\n"
+        "\n"
+        "  weft convert shot.####.exr --subframe-rate 400 --raster 1080i50 -o out.####.dpx\n"
+        "\n"
+        "To look at it while it is being made:\n"
+        "\n"
+        "  weft convert shot.####.exr --subframe-rate 480000/1001 -o - | mpv -\n",
+    .notes =
+        "Options and inputs may stand in any order; of an option given twice the last counts;\n"
+        "-- ends the options. Numbers may be ratios: 1/3, 30000/1001.\n"
+        "\n"
+        "Exit codes: 0 done; 1 failed; 2 the request makes no sense; 3 done, but frames were\n"
+        "held or samples mended; 128 + n on signal n. On failure nothing unfinished is left.\n",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .run = run,
+};

@@ -1,0 +1,29 @@
+#ifndef WF_CONVERT_PLOT_H
+#define WF_CONVERT_PLOT_H
+
+#include "convert/fail.h"
+
+/* Frequency responses to be drawn, as values and in decibels, over one axis from 0 to x_end. */
+typedef struct wf_plot_curve {
+    const char *name;    /* for the legend */
+    const double *value; /* [points] */
+    bool dashed;         /* and with a dot where it meets x_mark in decibels */
+} wf_plot_curve;
+
+typedef struct wf_plot {
+    const char *title, *subtitle;
+    const char *x_label;
+    double x_end, x_mark; /* x_mark: a frequency to point out */
+    const char *mark_label;
+    size_t points, curve_count;
+    const wf_plot_curve *curves;
+} wf_plot;
+
+/* Where the picture goes, piece by piece. */
+typedef weft_status wf_plot_write_fn(void *to, const void *data, size_t bytes, weft_error *err);
+
+/* wf_plot_png, the entry point of the plot module: draws and writes a PNG. */
+typedef weft_status wf_plot_png_fn(const wf_plot *plot, wf_plot_write_fn *write, void *to,
+                                   weft_error *err);
+
+#endif
