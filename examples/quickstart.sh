@@ -1,0 +1,44 @@
+#!/bin/bash
+# From a fresh Debian 12 to interlaced video: installs what is missing, builds weft, makes a short
+# sequence of high-rate subframes and converts it to 525-line interlaced video and to pictures.
+
+set -eu
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$source_dir"
+. tests/packages.sh
+
+echo "1/4 Packages"
+install_packages "${build_packages[@]}"
+
+echo "2/4 Build (Release, in build/)"
+mkdir -p out
+new=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF)
+[ ! -f build/CMakeCache.txt ] || new=()
+{ cmake -S . -B build "${new[@]}" &&
+    cmake --build build --parallel "$(nproc)" --target weft make_subframes; } >out/build.log 2>&1 ||
+    { cat out/build.log; exit 1; }
+
+echo "3/4 A sequence of 128 subframes, 480 a second, in out/subframes/"
+build/make_subframes out/subframes
+
+echo "4/4 Conversion to 525-line interlaced video"
+build/weft convert out/subframes -o out/quickstart.y4m --overwrite
+build/weft convert out/subframes -o out/quickstart.####.png --overwrite
+
+cat <<END
+
+Done. In $source_dir/out:
+  quickstart.y4m        8 frames (16 fields) of 720x486 at 29.97, bottom field first, 10-bit 4:2:2
+  quickstart.0000.png   the same frames as pictures, both fields woven
+
+Look at the PNG first: moving edges show the comb of two fields a 1/60 second apart; still patches
+and level lines do not flicker between fields. Play the video with a deinterlacer that shows every
+field:
+  ffplay -loop 0 -vf bwdif out/quickstart.y4m
+  mpv --loop --deinterlace=yes out/quickstart.y4m
+
+Then try
+  build/weft convert out/subframes --aperture line -o out/line.y4m    what flickers without a filter
+  build/weft filters                                                  the apertures there are
+  build/weft convert YOUR.####.exr --subframe-rate 240 -o yours.y4m   your own render
+END
