@@ -27,13 +27,24 @@ static void apply_builtin(const void *self, float *r, float *g, float *b, size_t
     for (int c = 0; c < 3; c++) t->ops->curve[t->curve->kind](t->curve, plane[c], width_px);
 }
 
+static void list_linear(char *text, size_t size) {
+    const wf_space *space;
+    size_t used = 0;
+    for (size_t i = 0; (space = wf_space_at(i)) && used < size; i++)
+        if (!space->curve)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     space->name);
+}
+
 static const wf_space *find_input(const char *name, char *why, size_t why_size) {
     const wf_space *space = wf_space_find(name, why, why_size);
     if (!space || !space->curve) return space;
+    char linear[256];
+    list_linear(linear, sizeof linear);
     snprintf(why, why_size,
              "the input cannot be in %s, which is encoded: what comes in is averaged as light and "
-             "must be linear; take one of lin_rec709, ACEScg, ACES2065-1, lin_rec2020, lin_p3d65",
-             space->name);
+             "must be linear; take one of %s",
+             space->name, linear);
     return NULL;
 }
 

@@ -4,10 +4,11 @@
 
 #define OF_65536(n) ((n) / 65536.0f)
 
-/* bt601: 39 taps, the equiripple half-band for the edges of Rec. ITU-R BT.601-7's template for 4:2:2
- * chroma, 2.75 and 4.0 MHz at 13.5 MHz, rounded to 16 bits such that they add up to exactly 1. Flat
- * to 0.0053 dB up to 2.75/13.5 of the luma sampling rate, half at 3.375/13.5, 64.3 dB down from
- * 4.0/13.5 on; the template asks for 0.05 dB and 55 dB. tests/test_chroma.c computes them again. */
+/* bt601: 39 taps, the equiripple half-band for the edges of Rec. ITU-R BT.601-7's template for
+ * 4:2:2 chroma, 2.75 and 4.0 MHz at 13.5 MHz, rounded to 16 bits such that they add up to
+ * exactly 1. Flat to 0.0053 dB up to 2.75/13.5 of the luma sampling rate, half at
+ * 3.375/13.5, 64.3 dB down from 4.0/13.5 on; the template asks for 0.05 dB and 55 dB.
+ * tests/test_chroma.c computes them again. */
 static const wf_chroma_filter filters[] = {
     [WF_CHROMA_BT601] = {"bt601", 10, true,
                          {OF_65536(20731), OF_65536(-6567), OF_65536(3559), OF_65536(-2170),

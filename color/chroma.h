@@ -21,8 +21,8 @@ const wf_chroma_filter *wf_chroma_filter_of(wf_chroma chroma);
 /* Samples of scratch for a line of width_px. */
 size_t wf_chroma_scratch(size_t width_px);
 
-/* The first width_px / 2 samples of line become those of the decimated line; outside, the line is
- * reflected about its first and last samples (c b | a b c). width_px is even. */
+/* The first width_px / 2 samples of line become those of the decimated line; outside, the line
+ * is reflected about its first and last samples (c b | a b c). width_px is even. */
 void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t width_px,
                         float *scratch);
 

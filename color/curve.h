@@ -1,9 +1,9 @@
 #ifndef WF_COLOR_CURVE_H
 #define WF_COLOR_CURVE_H
 
-/* Transfer curves: linear light, 1.0 being reference white, to R'G'B'. Negative light and NaN give
- * what 0 gives; light beyond WF_MOST_LIGHT, Inf with it, gives what WF_MOST_LIGHT gives. Signals
- * above 1 are kept. */
+/* Transfer curves: linear light, 1.0 being reference white, to R'G'B'. Negative light and NaN
+ * give what 0 gives; light beyond WF_MOST_LIGHT, Inf with it, gives what WF_MOST_LIGHT gives.
+ * Signals above 1 are kept. */
 
 /* The largest half: what EXR files hold at most, and far beyond every code. */
 #define WF_MOST_LIGHT 65504.0f
@@ -17,14 +17,14 @@ typedef enum wf_curve_kind {
 
 typedef struct wf_curve {
     wf_curve_kind kind;
-    float scale; /* PQ and HLG: the light of reference white on the standard's scale, where 1 is 1 */
+    float scale; /* PQ and HLG: reference white on the standard's scale */
     float power_high, power_low; /* p; high has few enough bits to be multiplied exactly */
     float gain, offset, toe_end, toe_slope;
 } wf_curve;
 
 /* Inverse of the display of Rec. ITU-R BT.1886 annex 1 with black at 0: gamma 2.4. */
 extern const wf_curve wf_curve_bt1886;
-/* OETF of Rec. ITU-R BT.709-6 item 1.2, its four constants as printed (BT.601-7 has the same). */
+/* OETF of Rec. ITU-R BT.709-6 item 1.2, its four constants as printed; BT.601-7's too. */
 extern const wf_curve wf_curve_bt709;
 /* OETF of Rec. ITU-R BT.2020-2 table 4, with alpha and beta as its note defines them. */
 extern const wf_curve wf_curve_bt2020;

@@ -13,8 +13,8 @@ static const struct {
     [WF_LUMA_2020] = {0.2627, 0.0593},
 };
 
-/* Levels at 8 bits in narrow range: where signals of 0 and 1 (chroma: 1 from end to end) lie, and
- * what is legal. */
+/* Levels at 8 bits in narrow range: where signals of 0 and 1 (chroma: 1 from end to end) lie,
+ * and what is legal. */
 typedef struct levels {
     double zero, unit, legal_low, legal_high;
 } levels;
@@ -34,8 +34,10 @@ static wf_quantizer narrow_quantizer(const wf_encoding *e, levels at) {
 
 static wf_quantizer full_quantizer(const wf_encoding *e, bool chroma) {
     double most = (double)((1 << e->bits) - 1);
-    return (wf_quantizer){
-        .scale = most, .offset = chroma ? (double)(1 << (e->bits - 1)) : 0, .low = 0, .high = most};
+    return (wf_quantizer){.scale = most,
+                          .offset = chroma ? (double)(1 << (e->bits - 1)) : 0,
+                          .low = 0,
+                          .high = most};
 }
 
 static wf_quantizer quantizer_of(const wf_encoding *e, bool chroma) {

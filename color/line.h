@@ -6,8 +6,8 @@
 
 #include "color/curve.h"
 
-/* Light beyond this, and R'G'B' beyond +-WF_MOST_SIGNAL, is cut off: every code is saturated there,
- * and no difference of two such samples overflows. */
+/* Light beyond this, and R'G'B' beyond +-WF_MOST_SIGNAL, is cut off: every code is saturated
+ * there, and no difference of two such samples overflows. */
 #define WF_MOST_LINEAR 1e30f
 #define WF_MOST_SIGNAL 1024.0f
 
@@ -30,8 +30,8 @@ typedef struct wf_quantizer {
     double scale, offset, low, high;
 } wf_quantizer;
 
-/* The inner loops of colour, one table for each instruction set they are compiled for. Every table
- * gives the same bits. */
+/* The inner loops of colour, one table for each instruction set they are compiled for. Every
+ * table gives the same bits. */
 typedef struct wf_line_ops {
     const char *name;
     /* In place, planes of count samples; NaN counts as 0. */

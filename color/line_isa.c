@@ -1,5 +1,5 @@
-/* Compiled once for each instruction set; WF_ISA names the table (color/line.c lists them). Nothing
- * here branches on a sample, so that the compiler makes vectors of all of it. */
+/* Compiled once for each instruction set; WF_ISA names the table (color/line.c lists them).
+ * Nothing here branches on a sample, so that the compiler makes vectors of all of it. */
 #include "color/line.h"
 
 #include <float.h>
@@ -10,11 +10,11 @@
 #define WF_ISA v1
 #endif
 #define JOIN_(a, b) a##b
-#define JOIN(a, b) JOIN_(a, b)
-#define TEXT_(a) #a
-#define TEXT(a) TEXT_(a)
+#define JOIN(a, b)  JOIN_(a, b)
+#define TEXT_(a)    #a
+#define TEXT(a)     TEXT_(a)
 
-/* ---- Powers and logarithms -------------------------------------------------------------------- */
+/* ---- Powers and logarithms ---- */
 
 static inline uint32_t bits_of(float x) {
     uint32_t bits;
@@ -36,8 +36,9 @@ static inline float split(float x, float *e) {
     return float_of((bits & 0x007fffff) + root_half) - 1;
 }
 
-/* log2((1 + s) / (1 - s)) to 1e-7 of itself, s from -0.172 to 0.172: the series of 2 artanh(s) / ln 2,
- * made a polynomial of s^2 that is within 7e-10 by itself. 1 + f has s = f / (2 + f). */
+/* log2((1 + s) / (1 - s)) to 1e-7 of itself, s from -0.172 to 0.172: the series of 2
+ * artanh(s) / ln 2, made a polynomial of s^2 that is within 7e-10 by itself. 1 + f has
+ * s = f / (2 + f). */
 static inline float log2_ratio(float s) {
     float z = s * s;
     return s * (2.88539008f + z * (0.96179885f + z * (0.57671441f + z * 0.43173537f)));
@@ -51,7 +52,7 @@ static inline float exp2_shifted(float shifted_n, float r) {
     return float_of(bits_of(1 + r * low) + (bits_of(shifted_n) << 23));
 }
 
-/* (2^e (1 + s) / (1 - s))^p: p_high e is exact, so that large and small numbers lose nothing. */
+/* (2^e (1 + s) / (1 - s))^p: p_high e is exact, so that no octave loses accuracy. */
 static inline float power_ratio(float e, float s, float p_high, float p_low) {
     const float shift = 12582912; /* 1.5 * 2^23: adding it rounds to a whole number */
     float whole = p_high * e;
@@ -65,7 +66,7 @@ static inline float power(float x, float p_high, float p_low) {
     return power_ratio(e, f / (2 + f), p_high, p_low);
 }
 
-/* ---- Curves ----------------------------------------------------------------------------------- */
+/* ---- Curves ---- */
 
 /* The comparisons are false for NaN. */
 static inline float light_of(float x) {
@@ -82,8 +83,8 @@ static void power_curve(const wf_curve *curve, float *restrict light, size_t cou
     }
 }
 
-/* ((c1 + c2 t) / (1 + c3 t))^m2, t = x^m1. The base less 1 decides how accurate the power is; it is
- * less / (1 + c3 t), without cancellation because c1 = c3 - c2 + 1. */
+/* ((c1 + c2 t) / (1 + c3 t))^m2, t = x^m1. The base less 1 decides how accurate the power is;
+ * it is less / (1 + c3 t), without cancellation because c1 = c3 - c2 + 1. */
 static void pq_curve(const wf_curve *curve, float *restrict light, size_t count) {
     const wf_curve c = *curve;
     const float c3 = 18.6875f, c3_less_c2 = -0.1640625f, m2 = 78.84375f;
@@ -108,7 +109,7 @@ static void hlg_curve(const wf_curve *curve, float *restrict light, size_t count
     }
 }
 
-/* ---- Matrices --------------------------------------------------------------------------------- */
+/* ---- Matrices ---- */
 
 static inline float within(float x, float most) {
     x = x == x ? x : 0;
@@ -131,8 +132,8 @@ static void mix(const wf_mix *m, float *restrict r, float *restrict g, float *re
     }
 }
 
-static void ycbcr(const wf_ycbcr *weights, float *restrict r, float *restrict g, float *restrict b,
-                  size_t count) {
+static void ycbcr(const wf_ycbcr *weights, float *restrict r, float *restrict g,
+                  float *restrict b, size_t count) {
     const wf_ycbcr w = *weights;
     for (size_t i = 0; i < count; i++) {
         float red = within(r[i], WF_MOST_SIGNAL), green = within(g[i], WF_MOST_SIGNAL);
@@ -144,7 +145,7 @@ static void ycbcr(const wf_ycbcr *weights, float *restrict r, float *restrict g,
     }
 }
 
-/* ---- Chroma ----------------------------------------------------------------------------------- */
+/* ---- Chroma ---- */
 
 static void deinterleave(float *restrict even, float *restrict odd, const float *restrict line,
                          size_t count) {
@@ -154,10 +155,10 @@ static void deinterleave(float *restrict even, float *restrict odd, const float 
     }
 }
 
-/* Each pair of taps is added to a sum that keeps single precision's 24 bits: the error of ten such
- * additions is below -130 dB, a 16-bit code's own -98 dB. */
-static void half_band(float *restrict out, const float *restrict even, const float *restrict odd,
-                      const float *restrict pair, size_t pairs, size_t count) {
+/* In single precision: ten additions leave an error of -130 dB, 16-bit codes one of -98 dB. */
+static void half_band(float *restrict out, const float *restrict even,
+                      const float *restrict odd, const float *restrict pair, size_t pairs,
+                      size_t count) {
     for (size_t i = 0; i < count; i++) out[i] = 0.5f * even[i];
     for (size_t j = 0; j < pairs; j++) {
         const float *after = odd + j, *before = odd - j - 1;
@@ -166,7 +167,7 @@ static void half_band(float *restrict out, const float *restrict even, const flo
     }
 }
 
-/* ---- Codes ------------------------------------------------------------------------------------ */
+/* ---- Codes ---- */
 
 /* In double a signal's 24 bits times the scale, and the offset, leave a half what it is. */
 static void quantize(const wf_quantizer *quantizer, uint16_t *restrict code,
@@ -185,7 +186,8 @@ const wf_line_ops JOIN(wf_line_ops_, WF_ISA);
 const wf_line_ops JOIN(wf_line_ops_, WF_ISA) = {
     .name = TEXT(WF_ISA),
     .mix = mix,
-    .curve = {[WF_CURVE_POWER] = power_curve, [WF_CURVE_PQ] = pq_curve, [WF_CURVE_HLG] = hlg_curve},
+    .curve =
+        {[WF_CURVE_POWER] = power_curve, [WF_CURVE_PQ] = pq_curve, [WF_CURVE_HLG] = hlg_curve},
     .ycbcr = ycbcr,
     .deinterleave = deinterleave,
     .half_band = half_band,

@@ -4,29 +4,29 @@
 #include <string.h>
 #include <strings.h>
 
-/* ---- Primaries -------------------------------------------------------------------------------- */
+/* ---- Primaries ---- */
 
-#define D65 {0.3127, 0.3290}
+#define D65        {0.3127, 0.3290}
 #define ACES_WHITE {0.32168, 0.33767}
 
 const wf_chromaticities wf_chromaticities_of[WF_PRIMARIES_COUNT] = {
     [WF_PRIMARIES_709] = {"Rec.709", "Rec. ITU-R BT.709-6 item 1.3",
                           {0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, D65},
-    [WF_PRIMARIES_SMPTE_C] = {"SMPTE-C", "SMPTE RP 145; Rec. ITU-R BT.601-7 item 1.4, 525 lines",
+    [WF_PRIMARIES_SMPTE_C] = {"SMPTE-C", "SMPTE RP 145; Rec. ITU-R BT.601-7 for 525 lines",
                               {0.630, 0.340}, {0.310, 0.595}, {0.155, 0.070}, D65},
-    [WF_PRIMARIES_EBU] = {"EBU", "EBU Tech. 3213; Rec. ITU-R BT.601-7 item 1.4, 625 lines",
+    [WF_PRIMARIES_EBU] = {"EBU", "EBU Tech. 3213; Rec. ITU-R BT.601-7 for 625 lines",
                           {0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, D65},
     [WF_PRIMARIES_2020] = {"Rec.2020", "Rec. ITU-R BT.2020-2 table 3",
                            {0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, D65},
-    [WF_PRIMARIES_P3] = {"P3-D65", "SMPTE EG 432-1, RP 431-2 with D65",
+    [WF_PRIMARIES_P3] = {"P3-D65", "SMPTE RP 431-2, with D65 SMPTE EG 432-1",
                          {0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, D65},
-    [WF_PRIMARIES_AP0] = {"AP0", "SMPTE ST 2065-1 table 1",
+    [WF_PRIMARIES_AP0] = {"AP0", "SMPTE ST 2065-1",
                           {0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, ACES_WHITE},
-    [WF_PRIMARIES_AP1] = {"AP1", "Academy S-2014-004 (ACEScg) table 1",
+    [WF_PRIMARIES_AP1] = {"AP1", "Academy S-2014-004 (ACEScg)",
                           {0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, ACES_WHITE},
 };
 
-/* ---- Matrices --------------------------------------------------------------------------------- */
+/* ---- Matrices ---- */
 
 static void xyz_of(const double xy[2], double xyz[3]) {
     xyz[0] = xy[0] / xy[1];
@@ -71,8 +71,8 @@ static void primaries_matrix(const wf_chromaticities *c, double out[3][3]) {
 
 /* XYZ under one white to XYZ under another, in the cone space of Lam's Bradford matrix. */
 static void adapt(const double from[2], const double to[2], double out[3][3]) {
-    double bradford[3][3] = {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367},
-                             {0.0389, -0.0685, 1.0296}};
+    double bradford[3][3] = {
+        {0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}};
     double inverse[3][3], scaled[3][3], xyz[3], source[3], target[3];
     xyz_of(from, xyz);
     apply(bradford, xyz, source);
@@ -103,7 +103,7 @@ void wf_rgb_to_rgb(wf_primaries from, wf_primaries to, double matrix[3][3]) {
     multiply(inverse, in, matrix);
 }
 
-/* ---- Spaces ----------------------------------------------------------------------------------- */
+/* ---- Spaces ---- */
 
 static const wf_space spaces[] = {
     {"lin_rec709", "lin_srgb", WF_PRIMARIES_709, NULL},
@@ -125,11 +125,16 @@ static const wf_space spaces[] = {
 
 enum { SPACES = sizeof spaces / sizeof *spaces };
 
-const wf_space *wf_space_at(size_t index) { return index < SPACES ? &spaces[index] : NULL; }
+const wf_space *wf_space_at(size_t index) {
+    return index < SPACES ? &spaces[index] : NULL;
+}
 
-static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
+static size_t smaller(size_t a, size_t b) {
+    return a < b ? a : b;
+}
 
-/* Letters to change, add or drop to make b of a, case aside (Levenshtein); both of at most 63. */
+/* Letters to change, add or drop to make b of a, case aside (Levenshtein); both of at most 63.
+ */
 static size_t distance(const char *a, const char *b) {
     size_t row[64], length = strlen(b);
     for (size_t j = 0; j <= length; j++) row[j] = j;
@@ -164,7 +169,8 @@ static void list_names(char *text, size_t size) {
     size_t used = 0;
     *text = '\0';
     for (size_t i = 0; i < SPACES && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", spaces[i].name);
+        used +=
+            (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", spaces[i].name);
 }
 
 const wf_space *wf_space_find(const char *name, char *why, size_t why_size) {

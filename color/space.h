@@ -25,8 +25,8 @@ typedef struct wf_chromaticities {
 
 extern const wf_chromaticities wf_chromaticities_of[WF_PRIMARIES_COUNT];
 
-/* Linear RGB to CIE XYZ, white having Y = 1; whites other than D65 are adapted to it by Bradford's
- * matrix, as the builtin transforms of OpenColorIO are. */
+/* Linear RGB to CIE XYZ, white having Y = 1; whites other than D65 are adapted to it by
+ * Bradford's matrix, as the builtin transforms of OpenColorIO are. */
 void wf_rgb_to_xyz(wf_primaries primaries, double matrix[3][3]);
 
 /* Linear RGB of one set of primaries to that of another. Rows add up to 1. */
@@ -42,8 +42,8 @@ typedef struct wf_space {
 /* Space i, NULL past the last. */
 const wf_space *wf_space_at(size_t index);
 
-/* The space of a name or alias, whatever its case; NULL with a reason, which lists the names there
- * are and points out one that is spelled alike. */
+/* The space of a name or alias, whatever its case; NULL with a reason, which lists the names
+ * there are and points out one that is spelled alike. */
 const wf_space *wf_space_find(const char *name, char *why, size_t why_size);
 
 #endif

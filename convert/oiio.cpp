@@ -304,19 +304,29 @@ static void ravel(const wf_oiio_picture &p, int y, float *to) {
     }
 }
 
-static bool write_pixels(const wf_oiio_picture &p, ImageOutput &out) {
-    const size_t line = 3 * size_t(p.width_px);
+// Lines y0 <= y < y1, in the type the file has.
+static bool write_lines(const wf_oiio_picture &p, int y0, int y1, ImageOutput &out) {
+    const size_t line = 3 * size_t(p.width_px), count = line * size_t(y1 - y0);
     if (p.bits == 32) {
-        std::vector<float> pixels(line * size_t(p.lines));
-        for (int y = 0; y < p.lines; y++) ravel(p, y, &pixels[size_t(y) * line]);
-        return out.write_image(TypeDesc::FLOAT, pixels.data());
+        std::vector<float> pixels(count);
+        for (int y = y0; y < y1; y++) ravel(p, y, &pixels[size_t(y - y0) * line]);
+        return out.write_scanlines(y0, y1, 0, TypeDesc::FLOAT, pixels.data());
     }
-    std::vector<uint16_t> pixels(line * size_t(p.lines));
-    for (int y = 0; y < p.lines; y++)
-        ravel(p, y, p.bits > 8 ? 16 - p.bits : 0, &pixels[size_t(y) * line]);
-    if (p.bits > 8) return out.write_image(TypeDesc::UINT16, pixels.data());
+    std::vector<uint16_t> pixels(count);
+    const int spread = p.bits > 8 ? 16 - p.bits : 0;
+    for (int y = y0; y < y1; y++) ravel(p, y, spread, &pixels[size_t(y - y0) * line]);
+    if (p.bits > 8) return out.write_scanlines(y0, y1, 0, TypeDesc::UINT16, pixels.data());
     const std::vector<uint8_t> bytes(pixels.begin(), pixels.end());
-    return out.write_image(TypeDesc::UINT8, bytes.data());
+    return out.write_scanlines(y0, y1, 0, TypeDesc::UINT8, bytes.data());
+}
+
+// In blocks, so that the picture is not in memory twice.
+static bool write_pixels(const wf_oiio_picture &p, ImageOutput &out) {
+    const int block = 64;
+    bool fine = true;
+    for (int y = 0; fine && y < p.lines; y += block)
+        fine = write_lines(p, y, y + block < p.lines ? y + block : p.lines, out);
+    return fine;
 }
 
 ENTRY wf_oiio_write(const wf_oiio_picture *picture, wf_oiio_bytes_fn *write, void *user,

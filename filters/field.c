@@ -163,10 +163,16 @@ static size_t band_samples(const wf_field *f, const wf_band *band) {
     return (size_t)(band->sums.end - band->sums.first) * wf_sum_samples(f->rs);
 }
 
+/* A sum that one picture makes goes to its place at once, while it is in the nearest cache. */
+static bool at_once(const wf_field *f) {
+    return f->rs->sums_by_row && f->window.alone && f->last && !f->carried;
+}
+
 void wf_band_open(const wf_field *f, int band, wf_scratch *s, int slot) {
     const wf_band *b = &f->plan->bands[band];
     size_t bytes = band_samples(f, b) * sizeof(double);
     const size_t from = (size_t)b->sums.first * wf_sum_samples(f->rs);
+    if (at_once(f)) return;
     if (f->carried)
         memcpy(slot_sums(s, slot), f->carry + from, bytes);
     else
@@ -272,37 +278,46 @@ static bool has_samples(const wf_resampler *rs, const wf_term *term,
            input->here.x1 > rs->columns.first && input->here.x0 < rs->columns.end;
 }
 
-void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
+static void finish_sums(wf_field *f, int first, int count, const double *sum) {
     const wf_resampler *rs = f->rs;
+    float *done = f->done + (size_t)first * wf_done_samples(rs);
+    for (size_t r = 0; r < (size_t)count * (size_t)rs->desc.channels; r++)
+        rs->ops->split(done + r * wf_row_samples(rs), sum + r * wf_columns_of(rs),
+                       (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
+}
+
+static void add_term(wf_field *f, const wf_term *term, const wf_band_input *input,
+                     double weight, double *sum) {
+    const wf_resampler *rs = f->rs;
+    count_weight(f, term, input, weight);
+    if (has_samples(rs, term, input)) add_samples(f, term, input, weight, sum);
+    if (rs->desc.channels == 4 && input->channels < 4) /* opaque */
+        add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
+}
+
+void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
     const wf_band *b = &f->plan->bands[band];
-    bool opaque = rs->desc.channels == 4 && input->channels < 4;
+    bool once = at_once(f);
     for (int t = b->terms.first; t < b->terms.end; t++) {
         const wf_term *term = &f->plan->terms[t];
         double weight = weight_of_all(f, term, input);
         if (weight == 0) continue;
-        double *sum =
-            slot_sums(s, slot) + (size_t)(term->sum - b->sums.first) * wf_sum_samples(rs);
-        count_weight(f, term, input, weight);
-        if (has_samples(rs, term, input)) add_samples(f, term, input, weight, sum);
-        if (opaque)
-            add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
+        double *sum = slot_sums(s, slot);
+        if (once)
+            memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
+        else
+            sum += (size_t)(term->sum - b->sums.first) * wf_sum_samples(f->rs);
+        add_term(f, term, input, weight, sum);
+        if (once) finish_sums(f, term->sum, 1, sum);
     }
-}
-
-static void finish_band(wf_field *f, const wf_band *b, const double *sum) {
-    const wf_resampler *rs = f->rs;
-    size_t rows = (size_t)(b->sums.end - b->sums.first) * (size_t)rs->desc.channels;
-    float *done = f->done + (size_t)b->sums.first * wf_done_samples(rs);
-    for (size_t r = 0; r < rows; r++)
-        rs->ops->split(done + r * wf_row_samples(rs), sum + r * wf_columns_of(rs),
-                       (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
 }
 
 void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
     const wf_band *b = &f->plan->bands[band];
     const double *sum = slot_sums(s, slot);
+    if (at_once(f)) return;
     if (f->last)
-        finish_band(f, b, sum);
+        finish_sums(f, b->sums.first, b->sums.end - b->sums.first, sum);
     else
         memcpy(f->carry + (size_t)b->sums.first * wf_sum_samples(f->rs), sum,
                band_samples(f, b) * sizeof *sum);

@@ -1,5 +1,5 @@
-/* 4:2:2 decimation: the template by the taps' transform and by gratings through the encoder, edges
- * and widths against a plain convolution. */
+/* 4:2:2 decimation: the template by the taps' transform and by gratings through the encoder,
+ * edges and widths against a plain convolution. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,12 +12,14 @@
 #include "color/chroma.h"
 #include "color/line.h"
 
-/* Rec. ITU-R BT.601-7 figure 2, MHz at 13.5 MHz, as shares of the luma sampling rate. */
-#define PASS_END (2.75 / 13.5)
-#define HALF_AT (3.375 / 13.5)
+/* Rec. ITU-R BT.601-7's template, MHz at 13.5 MHz, as shares of the luma sampling rate. */
+#define PASS_END   (2.75 / 13.5)
+#define HALF_AT    (3.375 / 13.5)
 #define STOP_START (4.0 / 13.5)
 
-static double decibels(double ratio) { return 20 * log10(ratio); }
+static double decibels(double ratio) {
+    return 20 * log10(ratio);
+}
 
 /* The tap `offset` samples from the middle one. */
 static double tap(const wf_chroma_filter *filter, int offset) {
@@ -89,7 +91,8 @@ enum { WIDTH = 1920 };
 static double through_encoder(wf_chroma chroma, int bits, double f, double phase) {
     static float rgb[3][WIDTH], scratch[2 * WIDTH];
     static uint16_t code[3][WIDTH];
-    wf_encoding e = {.luma = WF_LUMA_709, .chroma = chroma, .ycbcr = true, .bits = bits, .width_px = WIDTH};
+    wf_encoding e = {
+        .luma = WF_LUMA_709, .chroma = chroma, .ycbcr = true, .bits = bits, .width_px = WIDTH};
     assert_true(wf_encode_scratch(&e) <= 2 * WIDTH);
     for (int n = 0; n < WIDTH; n++) { /* Y' = 0.5, Cr = 0 */
         double cb = 0.25 * cos(2 * M_PI * f * n + phase);
@@ -101,7 +104,8 @@ static double through_encoder(wf_chroma chroma, int bits, double f, double phase
     uint16_t *const codes[3] = {code[0], code[1], code[2]};
     wf_encode_line(&e, planes, scratch, codes);
     double re = 0, im = 0, weights = 0;
-    for (int k = 0; k < WIDTH / 2; k++) { /* a Blackman-Harris window keeps the neighbours out */
+    for (int k = 0; k < WIDTH / 2;
+         k++) { /* a Blackman-Harris window keeps the neighbours out */
         double u = 2 * M_PI * (k + 0.5) / (WIDTH / 2.0);
         double w = 0.35875 - 0.48829 * cos(u) + 0.14128 * cos(2 * u) - 0.01168 * cos(3 * u);
         double signal = (code[1][k] - 128.0 * (1 << (bits - 8))) / (224.0 * (1 << (bits - 8)));
@@ -125,7 +129,8 @@ static void gratings_at_16_bits(void **state) {
         if (f <= PASS_END) ripple = fmax(ripple, fabs(decibels(r)));
         if (f >= STOP_START) leak = fmax(leak, r);
     }
-    print_message("gratings at 16 bits: ripple %.4f dB, stop band %.2f dB\n", ripple, decibels(leak));
+    print_message("gratings at 16 bits: ripple %.4f dB, stop band %.2f dB\n", ripple,
+                  decibels(leak));
     assert_true(ripple <= 0.05);
     assert_true(decibels(leak) <= -55);
 }
@@ -163,7 +168,8 @@ static void check_width(const wf_chroma_filter *filter, int width) {
     assert_true(scratch[room] == 42);
     for (int k = 0; k < width / 2; k++) {
         double want = 0;
-        for (int n = -REACH; n <= REACH; n++) want += tap(filter, n) * endless(kept, width, 2 * k + n);
+        for (int n = -REACH; n <= REACH; n++)
+            want += tap(filter, n) * endless(kept, width, 2 * k + n);
         assert_true(fabs((double)line[k] - want) < 3e-7);
     }
 }
@@ -191,7 +197,8 @@ static void levels_agree(void **state) {
     (void)state;
     enum { COUNT = 301 };
     const wf_chroma_filter *filter = wf_chroma_filter_of(WF_CHROMA_BT601);
-    float line[2 * COUNT], even[2][COUNT], odd[2][COUNT + 2 * WF_CHROMA_PAIRS] = {0}, out[2][COUNT] = {0};
+    float line[2 * COUNT], even[2][COUNT], odd[2][COUNT + 2 * WF_CHROMA_PAIRS] = {0},
+                                                              out[2][COUNT] = {0};
     for (int n = 0; n < 2 * COUNT; n++) line[n] = (float)sin(n * n);
     const wf_line_ops *ops, *levels[2] = {wf_line_ops_at(0)};
     for (size_t level = 1; (ops = wf_line_ops_at(level)); level++) {

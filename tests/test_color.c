@@ -1,4 +1,5 @@
-/* Spaces and curves: published matrices, closed forms in double over all that a half can hold. */
+/* Spaces and curves: published matrices, closed forms in double over all that a half can hold.
+ */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -21,13 +22,19 @@ static uint64_t random_bits(uint64_t *state) {
     return *state;
 }
 
-static double random_unit(uint64_t *state) { return (double)(random_bits(state) >> 11) * 0x1p-53; }
+static double random_unit(uint64_t *state) {
+    return (double)(random_bits(state) >> 11) * 0x1p-53;
+}
 
 /* ---- The standards' formulas ---- */
 
-static double bt1886(double x) { return pow(x, 1 / 2.4); }
+static double bt1886(double x) {
+    return pow(x, 1 / 2.4);
+}
 
-static double bt709(double x) { return x < 0.018 ? 4.5 * x : 1.099 * pow(x, 0.45) - 0.099; }
+static double bt709(double x) {
+    return x < 0.018 ? 4.5 * x : 1.099 * pow(x, 0.45) - 0.099;
+}
 
 static double bt2020(double x) {
     const double alpha = 1.09929682680944, beta = 0.018053968510807;
@@ -71,8 +78,8 @@ static const struct {
     const char *name;
     wf_primaries primaries;
 } inputs[] = {
-    {"lin_rec709", WF_PRIMARIES_709},    {"ACEScg", WF_PRIMARIES_AP1},
-    {"ACES2065-1", WF_PRIMARIES_AP0},    {"lin_rec2020", WF_PRIMARIES_2020},
+    {"lin_rec709", WF_PRIMARIES_709}, {"ACEScg", WF_PRIMARIES_AP1},
+    {"ACES2065-1", WF_PRIMARIES_AP0}, {"lin_rec2020", WF_PRIMARIES_2020},
     {"lin_p3d65", WF_PRIMARIES_P3},
 };
 enum { INPUTS = sizeof inputs / sizeof *inputs };
@@ -147,9 +154,11 @@ static void published_matrices(void **state) {
         wf_primaries primaries;
         double tolerance, to_xyz[3][3];
     } cases[] = {
-        {WF_PRIMARIES_709, 6e-5, /* IEC 61966-2-1, four decimals */
+        {WF_PRIMARIES_709,
+         6e-5, /* IEC 61966-2-1, four decimals */
          {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}},
-        {WF_PRIMARIES_AP0, 1e-12, /* OpenColorIO's ACES-AP0_to_CIE-XYZ-D65_BFD */
+        {WF_PRIMARIES_AP0,
+         1e-12, /* OpenColorIO's ACES-AP0_to_CIE-XYZ-D65_BFD */
          {{0.9382798492772554, -0.004451445812361399, 0.01662752358677617},
           {0.3373688907878367, 0.7295215666902654, -0.06689045747810234},
           {0.001173950849685879, -0.003710706402052562, 1.091594506312247}}},
@@ -158,7 +167,8 @@ static void published_matrices(void **state) {
         double m[3][3];
         wf_rgb_to_xyz(cases[n].primaries, m);
         for (int i = 0; i < 9; i++)
-            assert_true(fabs(m[i / 3][i % 3] - cases[n].to_xyz[i / 3][i % 3]) <= cases[n].tolerance);
+            assert_true(fabs(m[i / 3][i % 3] - cases[n].to_xyz[i / 3][i % 3]) <=
+                        cases[n].tolerance);
     }
 }
 
@@ -171,18 +181,22 @@ static void published_luminances(void **state) {
     } cases[] = {
         {WF_PRIMARIES_709, 6e-5, {0.2126, 0.7152, 0.0722}},  /* BT.709 item 3.2 */
         {WF_PRIMARIES_2020, 6e-5, {0.2627, 0.6780, 0.0593}}, /* BT.2020 table 4 */
-        {WF_PRIMARIES_SMPTE_C, 6e-4, {0.212, 0.701, 0.087}}, /* SMPTE 240M, of the same primaries */
-        {WF_PRIMARIES_EBU, 6e-4, {0.222, 0.707, 0.071}},     /* EBU Tech. 3213 */
-        {WF_PRIMARIES_P3, 6e-4, {0.229, 0.692, 0.079}},      /* Display P3 */
+        {WF_PRIMARIES_SMPTE_C,
+         6e-4,
+         {0.212, 0.701, 0.087}},                         /* SMPTE 240M, of the same primaries */
+        {WF_PRIMARIES_EBU, 6e-4, {0.222, 0.707, 0.071}}, /* EBU Tech. 3213 */
+        {WF_PRIMARIES_P3, 6e-4, {0.229, 0.692, 0.079}},  /* Display P3 */
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         double m[3][3];
         wf_rgb_to_xyz(cases[n].primaries, m);
-        for (int j = 0; j < 3; j++) assert_true(fabs(m[1][j] - cases[n].y[j]) <= cases[n].tolerance);
+        for (int j = 0; j < 3; j++)
+            assert_true(fabs(m[1][j] - cases[n].y[j]) <= cases[n].tolerance);
     }
 }
 
-/* OpenColorIO's ACES-AP1_to_LINEAR-REC709_BFD, and BT.2087's 709 to 2020 with its four digits. */
+/* OpenColorIO's ACES-AP1_to_LINEAR-REC709_BFD, and BT.2087's 709 to 2020 with its four digits.
+ */
 static void published_conversions(void **state) {
     (void)state;
     const double from_ap1[3][3] = {
@@ -193,9 +207,11 @@ static void published_conversions(void **state) {
         {0.6274, 0.3293, 0.0433}, {0.0691, 0.9195, 0.0114}, {0.0164, 0.0880, 0.8956}};
     double m[3][3];
     wf_rgb_to_rgb(WF_PRIMARIES_AP1, WF_PRIMARIES_709, m);
-    for (int i = 0; i < 9; i++) assert_true(fabs(m[i / 3][i % 3] - from_ap1[i / 3][i % 3]) < 1e-12);
+    for (int i = 0; i < 9; i++)
+        assert_true(fabs(m[i / 3][i % 3] - from_ap1[i / 3][i % 3]) < 1e-12);
     wf_rgb_to_rgb(WF_PRIMARIES_709, WF_PRIMARIES_2020, m);
-    for (int i = 0; i < 9; i++) assert_true(fabs(m[i / 3][i % 3] - to_2020[i / 3][i % 3]) < 6e-5);
+    for (int i = 0; i < 9; i++)
+        assert_true(fabs(m[i / 3][i % 3] - to_2020[i / 3][i % 3]) < 6e-5);
 }
 
 static void matrices_keep_white_and_come_back(void **state) {
@@ -218,8 +234,8 @@ static void matrices_keep_white_and_come_back(void **state) {
 
 /* ---- Curves ---- */
 
-/* A share of the signal; near PQ's black, where a tenth of the signal is a millionth of the light,
- * a share of 5 %. */
+/* A share of the signal; near PQ's black, where a tenth of the signal is a millionth of the
+ * light, a share of 5 %. */
 static double allowed(int output, double want) {
     return 2e-6 * (outputs[output].curve == pq ? fmax(want, 0.05) : want);
 }
@@ -239,7 +255,8 @@ static void check_curve(const wf_line_ops *ops, int output, const float *light, 
     memcpy(signal, light, count * sizeof *signal);
     ops->curve[curve->kind](curve, signal, count);
     for (size_t i = 0; i < count; i++) {
-        double want = outputs[output].curve((double)light[i]), error = fabs((double)signal[i] - want);
+        double want = outputs[output].curve((double)light[i]),
+               error = fabs((double)signal[i] - want);
         worst_share = fmax(worst_share, want > 0 ? error / allowed(output, want) : 0);
         if (!(error <= allowed(output, want)))
             fail_msg("%s, %s: %.9g gives %.9g, not %.9g", outputs[output].name, ops->name,
@@ -256,7 +273,9 @@ static void curves_of_all_halves(void **state) {
         for (int o = 0; o < OUTPUTS; o++) {
             worst_share = 0;
             check_curve(ops, o, light, signal, HALVES);
-            if (!level) print_message("%-18s error %.2f of what is allowed\n", outputs[o].name, worst_share);
+            if (!level)
+                print_message("%-18s error %.2f of what is allowed\n", outputs[o].name,
+                              worst_share);
             for (int i = 1; i < HALVES; i++)
                 if (!(signal[i] > signal[i - 1]))
                     fail_msg("%s: not monotonic at %g", outputs[o].name, (double)light[i]);
@@ -306,9 +325,10 @@ static void signals_by_the_book(void **state) {
         const char *space;
         double light, signal;
     } cases[] = {
-        {"rec709", 0.18, 0.489},     {"rec709-camera", 0.18, 0.409}, {"rec2020-camera", 0.18, 0.409},
-        {"rec601-525", 0.18, 0.489}, {"rec2100-pq", 1, 0.5807},      {"rec2100-hlg", 1, 0.75},
-        {"rec2100-hlg", 0.18, 0.38}, {"rec2100-pq", 10000.0 / 203, 1},
+        {"rec709", 0.18, 0.489},         {"rec709-camera", 0.18, 0.409},
+        {"rec2020-camera", 0.18, 0.409}, {"rec601-525", 0.18, 0.489},
+        {"rec2100-pq", 1, 0.5807},       {"rec2100-hlg", 1, 0.75},
+        {"rec2100-hlg", 0.18, 0.38},     {"rec2100-pq", 10000.0 / 203, 1},
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         float rgb[3] = {(float)cases[n].light, (float)cases[n].light, (float)cases[n].light};
@@ -338,7 +358,8 @@ static void random_colors(float rgb[3][PIXELS], uint64_t seed) {
 }
 
 static double mixed(double m[3][3], float rgb[3][PIXELS], int c, int i) {
-    return m[c][0] * (double)rgb[0][i] + m[c][1] * (double)rgb[1][i] + m[c][2] * (double)rgb[2][i];
+    return m[c][0] * (double)rgb[0][i] + m[c][1] * (double)rgb[1][i] +
+           m[c][2] * (double)rgb[2][i];
 }
 
 static void check_pair(int input, int output) {
@@ -366,7 +387,8 @@ static void every_pair(void **state) {
         for (int o = 0; o < OUTPUTS; o++) check_pair(i, o);
 }
 
-/* Linear to linear keeps what is negative and what is large; there and back is the same again. */
+/* Linear to linear keeps what is negative and what is large; there and back is the same again.
+ */
 static void linear_round_trips(void **state) {
     (void)state;
     static float in[3][PIXELS], out[3][PIXELS];
@@ -393,7 +415,8 @@ static void neutrals_stay_neutral(void **state) {
     static float rgb[3][HALVES];
     for (int a = 0; a < INPUTS; a++)
         for (int o = 0; o < OUTPUTS; o++) {
-            for (int i = 0; i < HALVES; i++) rgb[0][i] = rgb[1][i] = rgb[2][i] = wf_half_value((uint16_t)i);
+            for (int i = 0; i < HALVES; i++)
+                rgb[0][i] = rgb[1][i] = rgb[2][i] = wf_half_value((uint16_t)i);
             wf_transform t = transform_of(inputs[a].name, outputs[o].name);
             t.apply(t.self, rgb[0], rgb[1], rgb[2], HALVES);
             t.free(t.self);

@@ -1,4 +1,5 @@
-/* Codes: the formulas in long double for every depth, range and matrix; limits; what is no number. */
+/* Codes: the formulas in long double for every depth, range and matrix; limits; what is no
+ * number. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +16,8 @@
 
 enum { HALVES = 0x7c00 };
 static const int depths[] = {8, 10, 12, 16};
-static const double weights[3][2] = {{0.299, 0.114}, {0.2126, 0.0722}, {0.2627, 0.0593}}; /* Kr, Kb */
+static const double weights[3][2] = {
+    {0.299, 0.114}, {0.2126, 0.0722}, {0.2627, 0.0593}}; /* Kr, Kb */
 
 static uint64_t random_bits(uint64_t *state) {
     *state ^= *state << 13;
@@ -24,11 +26,14 @@ static uint64_t random_bits(uint64_t *state) {
     return *state;
 }
 
-static double random_unit(uint64_t *state) { return (double)(random_bits(state) >> 11) * 0x1p-53; }
+static double random_unit(uint64_t *state) {
+    return (double)(random_bits(state) >> 11) * 0x1p-53;
+}
 
 /* What the formulas give before rounding. */
 static long double level_of(const wf_encoding *e, bool chroma, long double signal) {
-    long double step = (long double)(1 << (e->bits - 8)), most = (long double)((1 << e->bits) - 1);
+    long double step = (long double)(1 << (e->bits - 8)),
+                most = (long double)((1 << e->bits) - 1);
     if (e->full_range) return most * signal + (chroma ? (long double)(1 << (e->bits - 1)) : 0);
     return chroma ? step * (128 + 224 * signal) : step * (16 + 219 * signal);
 }
@@ -74,8 +79,8 @@ static void encode(const wf_encoding *e, float *r, float *g, float *b, uint16_t 
 
 /* ---- Formulas ---- */
 
-/* Neutral signals of every kind: luma and R'G'B' exactly as the formula has them at every depth,
- * chroma exactly in the middle. */
+/* Neutral signals of every kind: luma and R'G'B' exactly as the formula has them at every
+ * depth, chroma exactly in the middle. */
 static void neutrals_are_exact(void **state) {
     (void)state;
     enum { COUNT = 20000 };
@@ -106,8 +111,9 @@ static void halves_are_rounded_away_from_zero(void **state) {
         static float signal[MOST], copy[3][MOST];
         static uint16_t code[3 * MOST];
         int codes = 1 << e.bits, count = 0;
-        for (int k = 0; k < codes; k += codes > 4096 ? 3 : 1) {
-            double zero = e.full_range ? 0 : 16.0 * (codes / 256), unit = e.full_range ? codes - 1 : 219.0 * (codes / 256);
+        for (int k = 0; k<codes; k += codes> 4096 ? 3 : 1) {
+            double zero = e.full_range ? 0 : 16.0 * (codes / 256),
+                   unit = e.full_range ? codes - 1 : 219.0 * (codes / 256);
             float at = (float)((k + 0.5 - zero) / unit);
             signal[count++] = nextafterf(at, -9);
             signal[count++] = at;
@@ -139,7 +145,8 @@ static void colors_follow_the_formula(void **state) {
         long double kr = weights[e.luma][0], kb = weights[e.luma][1];
         int different = 0;
         for (int n = 0; n < COUNT; n++) {
-            long double r = (long double)in[0][n], g = (long double)in[1][n], b = (long double)in[2][n];
+            long double r = (long double)in[0][n], g = (long double)in[1][n],
+                        b = (long double)in[2][n];
             long double y = kr * r + (1 - kr - kb) * g + kb * b;
             long double want[3] = {y, (b - y) / (2 * (1 - kb)), (r - y) / (2 * (1 - kr))};
             for (int c = 0; c < 3; c++) {
@@ -158,18 +165,24 @@ static void neutral_light_to_luma(void **state) {
     enum { COUNT = 1000000 };
     const char *spaces[] = {"rec601-525", "rec601-625", "rec709", "rec2020"};
     const wf_luma luma[] = {WF_LUMA_601, WF_LUMA_601, WF_LUMA_709, WF_LUMA_2020};
-    float *light = malloc((COUNT + HALVES) * sizeof *light), *rgb = malloc(3 * (COUNT + HALVES) * sizeof *rgb);
+    float *light = malloc((COUNT + HALVES) * sizeof *light),
+          *rgb = malloc(3 * (COUNT + HALVES) * sizeof *rgb);
     uint16_t *code = malloc(3 * (COUNT + HALVES) * sizeof *code);
     assert_true(light && rgb && code);
     uint64_t seed = 3;
     for (int i = 0; i < HALVES; i++) light[i] = wf_half_value((uint16_t)i);
     for (int i = 0; i < COUNT; i++) light[HALVES + i] = (float)random_unit(&seed);
     for (int s = 0; s < 4; s++) {
-        wf_encoding e = {.luma = luma[s], .chroma = WF_CHROMA_BT601, .ycbcr = true, .bits = 10, .width_px = COUNT + HALVES};
+        wf_encoding e = {.luma = luma[s],
+                         .chroma = WF_CHROMA_BT601,
+                         .ycbcr = true,
+                         .bits = 10,
+                         .width_px = COUNT + HALVES};
         float *plane[3];
         char why[900];
         wf_transform t;
-        if (!wf_builtin_transform("lin_rec709", spaces[s], &t, why, sizeof why)) fail_msg("%s", why);
+        if (!wf_builtin_transform("lin_rec709", spaces[s], &t, why, sizeof why))
+            fail_msg("%s", why);
         for (int c = 0; c < 3; c++) {
             plane[c] = rgb + c * (COUNT + HALVES);
             memcpy(plane[c], light, (COUNT + HALVES) * sizeof *light);
@@ -184,10 +197,12 @@ static void neutral_light_to_luma(void **state) {
             assert_true(off <= 1);
             different += off > 0;
         }
-        print_message("%s: %d of %d lumas are not the formula's\n", spaces[s], different, COUNT + HALVES);
+        print_message("%s: %d of %d lumas are not the formula's\n", spaces[s], different,
+                      COUNT + HALVES);
         assert_true(different <= (COUNT + HALVES) / 1000);
         for (int i = 0; i < (COUNT + HALVES) / 2; i++)
-            assert_true(code[COUNT + HALVES + i] == 512 && code[2 * (COUNT + HALVES) + i] == 512);
+            assert_true(code[COUNT + HALVES + i] == 512 &&
+                        code[2 * (COUNT + HALVES) + i] == 512);
     }
     free(light);
     free(rgb);
@@ -199,7 +214,8 @@ static void neutral_light_to_luma(void **state) {
 /* No reserved and no illegal code, whatever comes; what is no number is 0. */
 static void nothing_gets_past_the_limits(void **state) {
     (void)state;
-    const float bad[] = {NAN, -NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e30f, -5, 5, 0, 1, 0.5f};
+    const float bad[] = {NAN,   -NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX,
+                         1e30f, -5,   5,        0,         1,       0.5f};
     enum { BAD = sizeof bad / sizeof *bad, COUNT = BAD * BAD * BAD + 2 };
     static float rgb[3][COUNT];
     static uint16_t code[3 * COUNT];
@@ -252,9 +268,9 @@ static void codes_by_the_book(void **state) {
         {true, false, 10, {0, 0, 0}, {64, 512, 512}},
         {true, false, 10, {1, 1, 1}, {940, 512, 512}},
         {true, false, 8, {1, 1, 1}, {235, 128, 128}},
-        {true, false, 10, {0, 0, 1}, {127, 960, 471}},   /* 100 % bars of BT.709: blue */
-        {true, false, 10, {1, 0, 0}, {250, 409, 960}},   /* red */
-        {true, false, 10, {1, 1, 0}, {877, 64, 553}},    /* yellow */
+        {true, false, 10, {0, 0, 1}, {127, 960, 471}}, /* 100 % bars of BT.709: blue */
+        {true, false, 10, {1, 0, 0}, {250, 409, 960}}, /* red */
+        {true, false, 10, {1, 1, 0}, {877, 64, 553}},  /* yellow */
         {true, false, 10, {9, 9, 9}, {1019, 512, 512}},
         {true, false, 10, {-9, -9, -9}, {4, 512, 512}},
         {true, true, 10, {1, 1, 1}, {1023, 512, 512}},
@@ -266,15 +282,20 @@ static void codes_by_the_book(void **state) {
         {false, false, 12, {-1, 0.5f, 1}, {16, 2008, 3760}},
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
-        wf_encoding e = {.luma = WF_LUMA_709, .chroma = WF_CHROMA_444, .ycbcr = cases[n].ycbcr,
-                         .full_range = cases[n].full, .bits = cases[n].bits, .width_px = 1};
+        wf_encoding e = {.luma = WF_LUMA_709,
+                         .chroma = WF_CHROMA_444,
+                         .ycbcr = cases[n].ycbcr,
+                         .full_range = cases[n].full,
+                         .bits = cases[n].bits,
+                         .width_px = 1};
         float rgb[3];
         uint16_t code[3];
         memcpy(rgb, cases[n].rgb, sizeof rgb);
         encode(&e, &rgb[0], &rgb[1], &rgb[2], code);
         for (int c = 0; c < 3; c++)
             if (code[c] != cases[n].code[c])
-                fail_msg("case %zu: %u, not %u", n, (unsigned)code[c], (unsigned)cases[n].code[c]);
+                fail_msg("case %zu: %u, not %u", n, (unsigned)code[c],
+                         (unsigned)cases[n].code[c]);
     }
 }
 
@@ -285,7 +306,9 @@ static void levels_agree(void **state) {
     static uint16_t code[2][COUNT];
     uint64_t seed = 5;
     for (int n = 0; n < 3 * COUNT; n++)
-        in[n % 3][n / 3] = n % 97 ? (float)(random_unit(&seed) * 1.3 - 0.1) : n % 2 ? NAN : INFINITY;
+        in[n % 3][n / 3] = n % 97  ? (float)(random_unit(&seed) * 1.3 - 0.1)
+                           : n % 2 ? NAN
+                                   : INFINITY;
     const wf_ycbcr luma = {0.2126f, 0.0722f, 0.53887f, 0.635f};
     const wf_quantizer q = {876, 64, 4, 1019};
     const wf_line_ops *ops, *slow = wf_line_ops_at(0);

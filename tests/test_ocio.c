@@ -40,7 +40,8 @@ static void assert_refused(const wf_ocio_query *query, const char *says, const c
     wf_transform t;
     char why[900] = "";
     assert_false(ocio_open(query, &t, why, sizeof why));
-    if (!strstr(why, says) || !strstr(why, and_says)) fail_msg("\"%s\" is not about %s, %s", why, says, and_says);
+    if (!strstr(why, says) || !strstr(why, and_says))
+        fail_msg("\"%s\" is not about %s, %s", why, says, and_says);
     assert_null(t.apply);
     char small[9];
     assert_false(ocio_open(query, &t, small, sizeof small));
@@ -58,7 +59,9 @@ static uint64_t random_bits(uint64_t *state) {
     return *state;
 }
 
-static double random_unit(uint64_t *state) { return (double)(random_bits(state) >> 11) * 0x1p-53; }
+static double random_unit(uint64_t *state) {
+    return (double)(random_bits(state) >> 11) * 0x1p-53;
+}
 
 /* Colours that every set of primaries can show, from 2^-18 to 2^6, and runs of equal ones. */
 static void random_colors(float rgb[3][PIXELS], uint64_t seed) {
@@ -129,7 +132,8 @@ static void every_view(void **state) {
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         float by_view[3] = {0.3f, 0.18f, 0.05f}, by_space[3] = {0.3f, 0.18f, 0.05f};
-        wf_transform view = opened(&(wf_ocio_query){.display = cases[n].display, .view = cases[n].view});
+        wf_transform view =
+            opened(&(wf_ocio_query){.display = cases[n].display, .view = cases[n].view});
         wf_transform space = opened(&(wf_ocio_query){.from = "lin_rec709", .to = cases[n].to});
         view.apply(view.self, &by_view[0], &by_view[1], &by_view[2], 1);
         space.apply(space.self, &by_space[0], &by_space[1], &by_space[2], 1);
@@ -142,7 +146,8 @@ static void every_view(void **state) {
 static void damaged_samples(void **state) {
     (void)state;
     wf_transform t = opened(&(wf_ocio_query){.to = "rec709"});
-    float r[] = {NAN, INFINITY, -INFINITY, 0.5f, -4, 0.25f}, g[] = {0.5f, 0.5f, 0.5f, NAN, 0.5f, 0.25f};
+    float r[] = {NAN, INFINITY, -INFINITY, 0.5f, -4, 0.25f},
+          g[] = {0.5f, 0.5f, 0.5f, NAN, 0.5f, 0.25f};
     float b[] = {0.5f, 0.5f, 0.5f, 0.5f, NAN, 0.25f}, half = (float)pow(0.5, 1 / 2.4);
     t.apply(t.self, r, g, b, 6);
     const float *plane[] = {r, g, b};
@@ -162,12 +167,14 @@ static void lengths(void **state) {
     random_colors(all, 5);
     memcpy(some, all, sizeof all);
     t.apply(t.self, all[0], all[1], all[2], PIXELS);
-    for (size_t start = 0, count = 0; start < PIXELS; start += count, count = (count + 37) % 700) {
+    for (size_t start = 0, count = 0; start < PIXELS;
+         start += count, count = (count + 37) % 700) {
         if (count > PIXELS - start) count = PIXELS - start;
         t.apply(t.self, some[0] + start, some[1] + start, some[2] + start, count);
     }
     for (int c = 0; c < 3; c++)
-        for (int i = 0; i < PIXELS; i++) assert_true(fabsf(all[c][i] - some[c][i]) <= 1e-6f * all[c][i]);
+        for (int i = 0; i < PIXELS; i++)
+            assert_true(fabsf(all[c][i] - some[c][i]) <= 1e-6f * all[c][i]);
     t.free(t.self);
 }
 
@@ -213,13 +220,18 @@ static void light_may_be_negative(void **state) {
 
 static void names_that_are_not_there(void **state) {
     (void)state;
-    assert_refused(&(wf_ocio_query){.to = "rec710"}, "no color space \"rec710\"", "rec601-525-camera");
-    assert_refused(&(wf_ocio_query){.from = "lin", .to = "rec709"}, "no color space \"lin\"", "lin_p3d65");
-    assert_refused(&(wf_ocio_query){.display = "tv"}, "no display \"tv\"", "rec601-525, rec601-625");
-    assert_refused(&(wf_ocio_query){.display = "rec709", .view = "x"}, "no view of rec709 \"x\"",
-                   "Video, Camera, Raw");
-    assert_refused(&(wf_ocio_query){.to = "rec709", .look = "x"}, "no look \"x\"", "there are none");
-    assert_refused(&(wf_ocio_query){.to = "rec709", .display = "rec709"}, "--to", "leave one out");
+    assert_refused(&(wf_ocio_query){.to = "rec710"}, "no color space \"rec710\"",
+                   "rec601-525-camera");
+    assert_refused(&(wf_ocio_query){.from = "lin", .to = "rec709"}, "no color space \"lin\"",
+                   "lin_p3d65");
+    assert_refused(&(wf_ocio_query){.display = "tv"}, "no display \"tv\"",
+                   "rec601-525, rec601-625");
+    assert_refused(&(wf_ocio_query){.display = "rec709", .view = "x"},
+                   "no view of rec709 \"x\"", "Video, Camera, Raw");
+    assert_refused(&(wf_ocio_query){.to = "rec709", .look = "x"}, "no look \"x\"",
+                   "there are none");
+    assert_refused(&(wf_ocio_query){.to = "rec709", .display = "rec709"}, "--to",
+                   "leave one out");
     assert_refused(&(wf_ocio_query){0}, "--to", "--display");
 }
 
@@ -244,7 +256,8 @@ static void bad_files(void **state) {
         {"\xff\xfe\x00\x01", ""},
     };
     char path[4096];
-    assert_refused(&(wf_ocio_query){.config = "/nonexistent.ocio", .to = "rec709"}, "/nonexistent.ocio", "");
+    assert_refused(&(wf_ocio_query){.config = "/nonexistent.ocio", .to = "rec709"},
+                   "/nonexistent.ocio", "");
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         write_config(path, cases[n].text, strlen(cases[n].text));
         assert_refused(&(wf_ocio_query){.config = path, .to = "rec709"}, path, cases[n].says);
@@ -266,7 +279,8 @@ static char *shipped_text(size_t *length) {
     return text;
 }
 
-/* Cut off or with a bit turned, a configuration opens or is refused, and what opens can be used. */
+/* Cut off or with a bit turned, a configuration opens or is refused, and what opens can be
+ * used. */
 static void damaged_files(void **state) {
     (void)state;
     size_t length;
@@ -311,7 +325,8 @@ static void file_and_module_agree(void **state) {
     free(text);
     float rgb[2][3] = {{0.7f, 0.1f, 0.02f}, {0.7f, 0.1f, 0.02f}};
     for (int i = 0; i < 2; i++) {
-        wf_transform t = opened(&(wf_ocio_query){.config = i ? path : NULL, .to = "rec601-625-camera"});
+        wf_transform t =
+            opened(&(wf_ocio_query){.config = i ? path : NULL, .to = "rec601-625-camera"});
         t.apply(t.self, &rgb[i][0], &rgb[i][1], &rgb[i][2], 1);
         t.free(t.self);
     }
@@ -325,18 +340,22 @@ static void aces_configuration(void **state) {
     (void)state;
     const char *shared = getenv("WEFT_SHARED");
     char path[4096];
-    snprintf(path, sizeof path, "%s/data/ocio/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio", shared ? shared : "");
+    snprintf(path, sizeof path, "%s/data/ocio/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio",
+             shared ? shared : "");
     if (!shared || access(path, R_OK)) {
         print_message("skipped: WEFT_SHARED has no data/ocio\n");
         skip();
     }
-    wf_ocio_query q = {.config = path, .display = "Rec.1886 Rec.709 - Display", .view = "ACES 1.0 - SDR Video"};
+    wf_ocio_query q = {.config = path,
+                       .display = "Rec.1886 Rec.709 - Display",
+                       .view = "ACES 1.0 - SDR Video"};
     float r = 0.18f, g = 0.18f, b = 0.18f, plain = r;
     wf_transform t = opened(&q);
     t.apply(t.self, &r, &g, &b, 1);
     t.free(t.self);
     assert_true(fabsf(r - g) < 1e-4f && fabsf(g - b) < 1e-4f);
-    assert_true(fabs((double)r - pow(0.1, 0.9811 / 2.4)) < 2e-3); /* 10 % of white, for dim surroundings */
+    assert_true(fabs((double)r - pow(0.1, 0.9811 / 2.4)) <
+                2e-3); /* 10 % of white, for dim surroundings */
     r = g = b = plain;
     q.look = "ACES 1.3 Reference Gamut Compression";
     t = opened(&q);
@@ -355,9 +374,10 @@ static void aces_configuration(void **state) {
     assert_true(own[1] < 0);
     builtin.free(builtin.self);
     t.free(t.self);
-    assert_refused(&(wf_ocio_query){.config = path, .to = "rec709"}, "no color space \"rec709\"", "ACEScct");
-    assert_refused(&(wf_ocio_query){.config = path, .to = "ACEScg", .look = "+x, y"}, "no look \"x\"",
-                   "Reference Gamut Compression");
+    assert_refused(&(wf_ocio_query){.config = path, .to = "rec709"},
+                   "no color space \"rec709\"", "ACEScct");
+    assert_refused(&(wf_ocio_query){.config = path, .to = "ACEScg", .look = "+x, y"},
+                   "no look \"x\"", "Reference Gamut Compression");
 }
 
 int main(void) {

@@ -49,7 +49,10 @@ static void convert(const field *f, const wf_transform *t, const wf_encoding *e,
 }
 
 static void measure(const field *f, const wf_transform *t, const char *name, int runs) {
-    const wf_encoding e = {.luma = WF_LUMA_709, .chroma = WF_CHROMA_BT601, .ycbcr = true, .bits = 10,
+    const wf_encoding e = {.luma = WF_LUMA_709,
+                           .chroma = WF_CHROMA_BT601,
+                           .ycbcr = true,
+                           .bits = 10,
                            .width_px = WIDTH};
     double best[2] = {1, 1};
     for (int run = 0; run < runs; run++) {
@@ -58,8 +61,8 @@ static void measure(const field *f, const wf_transform *t, const char *name, int
         if (times[0] + times[1] < best[0] + best[1]) memcpy(best, times, sizeof best);
     }
     t->free(t->self);
-    printf("%-40s color %6.2f ms, 4:2:2 and codes %5.2f ms, together %6.2f ms\n", name, 1e3 * best[0],
-           1e3 * best[1], 1e3 * (best[0] + best[1]));
+    printf("%-40s color %6.2f ms, 4:2:2 and codes %5.2f ms, together %6.2f ms\n", name,
+           1e3 * best[0], 1e3 * best[1], 1e3 * (best[0] + best[1]));
 }
 
 static void measure_builtin(const field *f, const char *from, const char *to) {
@@ -108,11 +111,13 @@ static void measure_all(const field *f, const char *config) {
     measure_builtin(f, "ACEScg", "rec709");
     measure_ocio(f, &(wf_ocio_query){.to = "rec709"}, "OpenColorIO: lin_rec709 to rec709");
     if (config)
-        measure_ocio(f, &(wf_ocio_query){.config = config, .display = "Rec.1886 Rec.709 - Display"},
-                     "OpenColorIO: the view of a configuration");
+        measure_ocio(
+            f, &(wf_ocio_query){.config = config, .display = "Rec.1886 Rec.709 - Display"},
+            "OpenColorIO: the view of a configuration");
 }
 
-/* An argument is a foreign configuration, whose display "Rec.1886 Rec.709 - Display" is taken. */
+/* An argument is a foreign configuration, whose display "Rec.1886 Rec.709 - Display" is taken.
+ */
 int main(int argc, char **argv) {
     field f = {.light = malloc((size_t)3 * WIDTH * LINES * sizeof(float)),
                .line = malloc(3 * WIDTH * sizeof(float)),
@@ -122,7 +127,8 @@ int main(int argc, char **argv) {
     const wf_line_ops *ops;
     fill(f.light);
     measure_all(&f, argc > 1 ? argv[1] : NULL);
-    for (size_t level = 0; (ops = wf_line_ops_at(level)); level++) measure_level(ops, &f, &wf_curve_bt1886);
+    for (size_t level = 0; (ops = wf_line_ops_at(level)); level++)
+        measure_level(ops, &f, &wf_curve_bt1886);
     free(f.light);
     free(f.line);
     free(f.scratch);
