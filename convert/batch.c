@@ -15,6 +15,7 @@ typedef struct batch {
     wf_subframe *subframe[MOST_OPEN]; /* NULL: missing, black */
     bool borrowed[MOST_OPEN];         /* held: the one before it */
     int count;
+    int64_t end;       /* of the group: fields before it are finished at once */
     wf_field **fields; /* those that this batch adds to */
     int field_count;
 } batch;
@@ -170,6 +171,17 @@ static weft_status add_subframes(batch *b, wf_worker *worker, int band) {
     return WEFT_OK;
 }
 
+/* Lines that have seen their last band, while their sums are near. */
+static void finish_lines(batch *b, wf_worker *worker, int band) {
+    for (int f = 0; f < b->field_count; f++) {
+        wf_field *field = b->fields[f];
+        wf_span lines = wf_band_lines(field, band);
+        if (wf_field_index(field) >= b->end) continue;
+        for (int l = lines.first; l < lines.end; l++)
+            if (wf_field_line_ready(field, l)) wf_pipeline_finish_line(b->p, worker, field, l);
+    }
+}
+
 static void read_band(batch *b, wf_worker *worker, int band) {
     for (int f = 0; f < b->field_count; f++)
         wf_band_open(b->fields[f], band, worker->scratch, f);
@@ -178,7 +190,10 @@ static void read_band(batch *b, wf_worker *worker, int band) {
     for (int f = 0; f < b->field_count; f++)
         wf_band_close(b->fields[f], band, worker->scratch, f);
     worker->resample_s += wf_now_s() - start;
-    if (status) wf_worker_fail(b->p, worker, status);
+    if (status)
+        wf_worker_fail(b->p, worker, status);
+    else
+        finish_lines(b, worker, band);
 }
 
 static weft_status read_bands(batch *b, weft_error *err) {
@@ -278,7 +293,7 @@ weft_status wf_batch_read(wf_pipeline *p, int64_t first, int64_t end, weft_error
     int64_t k = p->next_subframe;
     weft_status status = WEFT_OK;
     for (int64_t field = first; field < end && !status;) {
-        batch b = {.p = p, .fields = p->active};
+        batch b = {.p = p, .end = end, .fields = p->active};
         while (field < end && b.count < most) {
             wf_window window = wf_resampler_window(rs, field);
             if (k < window.first) k = window.first;

@@ -85,15 +85,29 @@ static size_t sample_bytes(const wf_pipeline *p) {
     return p->setup->sink->layout == WF_LINEAR ? sizeof(float) : sizeof(uint16_t);
 }
 
-static weft_status make_frame(wf_pipeline *p, weft_error *err) {
+static size_t plane_bytes(const wf_pipeline *p, int c) {
+    return p->stride[c] * (size_t)p->job->raster.lines * sample_bytes(p);
+}
+
+/* Fields of a group may be finished in any order, and the first of them may belong to a frame
+ * of the group before. */
+static weft_status make_frames(wf_pipeline *p, weft_error *err) {
+    p->frames = calloc((size_t)p->frame_count, sizeof *p->frames);
+    bool room = p->frames;
+    for (int n = 0; room && n < p->frame_count; n++)
+        for (int c = 0; c < 3; c++) {
+            p->frames[n].plane[c] = malloc(plane_bytes(p, c));
+            room = room && p->frames[n].plane[c];
+        }
+    return room ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
+}
+
+static void size_frames(wf_pipeline *p) {
     const wf_sink_options *o = &p->setup->sink_options;
-    size_t width = (size_t)o->raster->width_px, lines = (size_t)o->raster->lines;
-    for (int c = 0; c < 3; c++) {
-        p->stride[c] = c && o->subsampled ? width / 2 : width;
-        p->plane[c] = malloc(p->stride[c] * lines * sample_bytes(p));
-        if (!p->plane[c]) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
-    }
-    return WEFT_OK;
+    size_t width = (size_t)o->raster->width_px;
+    int per_frame = wf_raster_fields_per_frame(o->raster);
+    for (int c = 0; c < 3; c++) p->stride[c] = c && o->subsampled ? width / 2 : width;
+    p->frame_count = (p->group_most + per_frame - 1) / per_frame + 1;
 }
 
 /* What a run holds at most, but for the libraries' own needs. */
@@ -102,6 +116,7 @@ static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
     size_t bytes = (size_t)p->group_most * wf_resampler_field_bytes(rs, false) +
                    (size_t)p->carried_most * wf_resampler_field_bytes(rs, true) +
                    (size_t)p->threads * wf_scratch_bytes(rs, p->group_most + p->carried_most);
+    for (int c = 0; c < 3; c++) bytes += (size_t)p->frame_count * plane_bytes(p, c);
     if (bytes <= p->job->max_memory_bytes) return WEFT_OK;
     return wf_fail(
         err, WEFT_NO_MEMORY,
@@ -112,6 +127,7 @@ static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
 
 static weft_status fill_pipeline(wf_pipeline *p, weft_error *err) {
     choose_groups(p);
+    size_frames(p);
     weft_status status = check_memory(p, err);
     if (status) return status;
     size_t flight = (size_t)(p->group_most + p->carried_most);
@@ -123,7 +139,7 @@ static weft_status fill_pipeline(wf_pipeline *p, weft_error *err) {
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for %d threads", p->threads);
     for (int t = 0; !status && t < p->threads; t++)
         status = make_worker(p, &p->workers[t], err);
-    return status ? status : make_frame(p, err);
+    return status ? status : make_frames(p, err);
 }
 
 weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **out,
@@ -163,28 +179,35 @@ void wf_pipeline_free(wf_pipeline *p) {
     free(p->flight);
     free(p->active);
     free(p->spare);
-    for (int c = 0; c < 3; c++) free(p->plane[c]);
+    for (int n = 0; p->frames && n < p->frame_count; n++)
+        for (int c = 0; c < 3; c++) free(p->frames[n].plane[c]);
+    free(p->frames);
     free(p);
 }
 
 /* ---- Fields to frames ---- */
 
-static void *frame_line(const wf_pipeline *p, int c, int j) {
-    return (char *)p->plane[c] + (size_t)j * p->stride[c] * sample_bytes(p);
+static wf_frame_room *frame_of(const wf_pipeline *p, int64_t field) {
+    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
+    return &p->frames[field / per_frame % p->frame_count];
 }
 
-/* Line l of a field, through colour, into the frame. */
-static void finish_line(wf_pipeline *p, wf_worker *worker, const wf_field *field, int parity,
-                        int l) {
+static void *frame_line(const wf_pipeline *p, const wf_frame_room *frame, int c, int j) {
+    return (char *)frame->plane[c] + (size_t)j * p->stride[c] * sample_bytes(p);
+}
+
+void wf_pipeline_finish_line(wf_pipeline *p, wf_worker *worker, const wf_field *field, int l) {
     const wf_setup *s = p->setup;
-    size_t width = (size_t)p->job->raster.width_px;
-    int j = parity + l * wf_raster_line_step(&p->job->raster);
+    const wf_raster *raster = &p->job->raster;
+    const wf_frame_room *frame = frame_of(p, wf_field_index(field));
+    size_t width = (size_t)raster->width_px;
+    int j = wf_raster_parity(raster, wf_field_index(field)) + l * wf_raster_line_step(raster);
     bool linear = s->sink->layout == WF_LINEAR;
     float *rgb[3];
     uint16_t *code[3];
     for (int c = 0; c < 3; c++) {
-        rgb[c] = linear ? frame_line(p, c, j) : worker->line + (size_t)c * width;
-        code[c] = frame_line(p, c, j);
+        rgb[c] = linear ? frame_line(p, frame, c, j) : worker->line + (size_t)c * width;
+        code[c] = frame_line(p, frame, c, j);
     }
     double start = wf_now_s();
     wf_field_line(field, l, worker->scratch, rgb);
@@ -196,18 +219,19 @@ static void finish_line(wf_pipeline *p, wf_worker *worker, const wf_field *field
     worker->color_s += wf_now_s() - resampled;
 }
 
-static void finish_field(wf_pipeline *p, const wf_field *field, int64_t index) {
-    int parity = wf_raster_parity(&p->job->raster, index);
+/* All lines of a field that was complete before its group was read. */
+static void finish_field(wf_pipeline *p, const wf_field *field) {
+    int parity = wf_raster_parity(&p->job->raster, wf_field_index(field));
     int lines = wf_raster_field_lines(&p->job->raster, parity);
 #pragma omp parallel for num_threads(p->threads) schedule(dynamic, 4)
     for (int l = 0; l < lines; l++)
-        finish_line(p, &p->workers[omp_get_thread_num()], field, parity, l);
+        wf_pipeline_finish_line(p, &p->workers[omp_get_thread_num()], field, l);
 }
 
 static weft_status write_frame(wf_pipeline *p, int64_t index, weft_error *err) {
     wf_frame frame = {.index = index};
     for (int c = 0; c < 3; c++) {
-        frame.plane[c] = p->plane[c];
+        frame.plane[c] = p->frames[index % p->frame_count].plane[c];
         frame.stride[c] = p->stride[c];
     }
     double start = wf_now_s();
@@ -233,7 +257,7 @@ static weft_status finish_group(wf_pipeline *p, int64_t first, int64_t end, weft
     int per_frame = wf_raster_fields_per_frame(&p->job->raster);
     for (int64_t n = first; n < end; n++) {
         if (p->job->cancelled) return wf_pipeline_status(p, err);
-        finish_field(p, p->flight[0], n);
+        if (!wf_field_lines_taken(p->flight[0])) finish_field(p, p->flight[0]);
         land_first(p);
         if (n % per_frame != per_frame - 1) continue;
         weft_status status = write_frame(p, n / per_frame, err);

@@ -16,6 +16,11 @@ typedef struct wf_worker {
     double decode_s, resample_s, color_s;
 } wf_worker;
 
+/* The planes of a frame while its fields are finished, in any order. */
+typedef struct wf_frame_room {
+    void *plane[3];
+} wf_frame_room;
+
 /* A run of whole frames through source, resampler, colour and sink. */
 typedef struct wf_pipeline {
     weft_job *job;
@@ -28,7 +33,8 @@ typedef struct wf_pipeline {
                        */
     bool merge;       /* equal pictures of one window are added once with their weights' sum */
     atomic_bool stop;
-    void *plane[3];   /* the frame being put together */
+    wf_frame_room *frames; /* being put together: frame n in frames[n % frame_count] */
+    int frame_count;
     size_t stride[3]; /* samples */
     int64_t
         next_subframe; /* the first that no field in flight has seen; 0 where none is carried */
@@ -38,7 +44,7 @@ typedef struct wf_pipeline {
     int spare_count;
     int64_t flight_first;
     int flight_count;
-    int64_t end_field; /* of the frames in hand: nothing later is put in flight */
+    int64_t end_field;    /* of the frames in hand: nothing later is put in flight */
     int64_t opened, frames_done, frames_total;
     double write_s, started_s;
 } wf_pipeline;
@@ -63,6 +69,10 @@ double wf_now_s(void);
 /* Reads the subframes that fields first <= n < end need and adds them to these fields, and to
  * the later ones they already touch where fields are carried. */
 weft_status wf_batch_read(wf_pipeline *pipeline, int64_t first, int64_t end, weft_error *err);
+
+/* Takes line `line` of a field through colour into its frame. */
+void wf_pipeline_finish_line(wf_pipeline *pipeline, wf_worker *worker, const wf_field *field,
+                             int line);
 
 /* The first worker's failure, or cancellation. */
 weft_status wf_pipeline_status(const wf_pipeline *pipeline, weft_error *err);

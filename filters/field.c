@@ -97,10 +97,14 @@ bool wf_field_renew(wf_field *f, int64_t index) {
     f->window = wf_resampler_window(rs, index);
     f->carried = f->last = f->complete = false;
     free(f->moments);
+    free(f->bands_left);
     free(f->overscan);
     f->overscan = NULL;
+    f->bands_left = malloc((size_t)f->plan->lines * sizeof *f->bands_left);
     f->moments = malloc((size_t)moment_rows(f) * (size_t)f->window.count * sizeof *f->moments);
-    if (!f->moments) return false;
+    if (!f->moments || !f->bands_left) return false;
+    for (int l = 0; l < f->plan->lines; l++)
+        atomic_init(&f->bands_left[l], f->plan->line_bands[l]);
     fill_moments(f);
     memset(f->inside, 0, 2 * most_sums(rs) * sizeof *f->inside);
     return true;
@@ -122,11 +126,16 @@ wf_field *wf_field_new(const wf_resampler *rs, int64_t index) {
 void wf_field_free(wf_field *f) {
     if (!f) return;
     free(f->moments);
+    free(f->bands_left);
     free(f->inside);
     free(f->done);
     free(f->carry);
     free(f->overscan);
     free(f);
+}
+
+int64_t wf_field_index(const wf_field *f) {
+    return f->index;
 }
 
 bool wf_field_begin_batch(wf_field *f, bool last, bool overscan) {
@@ -321,4 +330,16 @@ void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
     else
         memcpy(f->carry + (size_t)b->sums.first * wf_sum_samples(f->rs), sum,
                band_samples(f, b) * sizeof *sum);
+}
+
+wf_span wf_band_lines(const wf_field *f, int band) {
+    return f->last ? f->plan->bands[band].lines : (wf_span){0, 0};
+}
+
+bool wf_field_line_ready(wf_field *f, int line) {
+    return atomic_fetch_sub_explicit(&f->bands_left[line], 1, memory_order_acq_rel) == 1;
+}
+
+bool wf_field_lines_taken(const wf_field *f) {
+    return atomic_load(&f->bands_left[0]) == 0;
 }

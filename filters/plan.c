@@ -109,6 +109,28 @@ static void index_taps(wf_plan *plan) {
     }
 }
 
+static int floor_to_band(const wf_resampler *rs, int row) {
+    int from = row - rs->desc.band_origin, rows = rs->desc.band_rows;
+    int rest = from % rows;
+    return row - (rest < 0 ? rest + rows : rest);
+}
+
+/* Which bands each line reaches, and the other way round. */
+static void index_bands(builder *b) {
+    wf_plan *plan = b->plan;
+    int origin = floor_to_band(b->rs, b->rs->rows.first), rows = b->rs->desc.band_rows;
+    for (int line = 0; line < plan->lines; line++) {
+        int first = (b->reach[line].first - origin) / rows;
+        int last = (b->reach[line].end - 1 - origin) / rows;
+        plan->line_bands[line] = last - first + 1;
+        for (int band = first; band <= last; band++) {
+            wf_span *lines = &plan->bands[band].lines;
+            if (!lines->end) lines->first = line;
+            lines->end = line + 1;
+        }
+    }
+}
+
 static bool build(builder *b) {
     wf_plan *plan = b->plan;
     for (int line = 0; line < plan->lines; line++)
@@ -118,6 +140,7 @@ static bool build(builder *b) {
     for (int band = 0; band < b->rs->band_count; band++)
         if (!add_band(b, band, &top_line)) return false;
     index_taps(plan);
+    index_bands(b);
     return true;
 }
 
@@ -129,10 +152,12 @@ static bool build_plan(wf_resampler *rs, int parity) {
     plan->line_step = wf_raster_line_step(raster);
     plan->bands = calloc((size_t)rs->band_count, sizeof *plan->bands);
     plan->line_taps = calloc((size_t)plan->lines, sizeof *plan->line_taps);
+    plan->line_bands = calloc((size_t)plan->lines, sizeof *plan->line_bands);
     builder b = {.rs = rs, .plan = plan};
     b.reach = calloc((size_t)plan->lines, sizeof *b.reach);
     b.line_sum = calloc((size_t)plan->lines, sizeof *b.line_sum);
-    bool built = plan->bands && plan->line_taps && b.reach && b.line_sum && build(&b);
+    bool room = plan->bands && plan->line_taps && plan->line_bands && b.reach && b.line_sum;
+    bool built = room && build(&b);
     free(b.reach);
     free(b.line_sum);
     return built;
@@ -143,12 +168,6 @@ static bool build_plan(wf_resampler *rs, int parity) {
 static wf_span reached(const wf_axis *axis, double reach) {
     return (wf_span){wf_axis_reach(axis, reach, 0).first,
                      wf_axis_reach(axis, reach, axis->pixels - 1).end};
-}
-
-static int floor_to_band(const wf_resampler *rs, int row) {
-    int from = row - rs->desc.band_origin, rows = rs->desc.band_rows;
-    int rest = from % rows;
-    return row - (rest < 0 ? rest + rows : rest);
 }
 
 static void lay_out_columns(wf_resampler *rs) {
@@ -224,6 +243,7 @@ void wf_resampler_free(wf_resampler *rs) {
         free(rs->plan[p].terms);
         free(rs->plan[p].taps);
         free(rs->plan[p].line_taps);
+        free(rs->plan[p].line_bands);
     }
     for (int i = 0; i < rs->kernel_count; i++) wf_kernel_release(&rs->kernels[i]);
     free(rs->kernels);

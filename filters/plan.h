@@ -1,6 +1,8 @@
 #ifndef WF_FILTERS_PLAN_H
 #define WF_FILTERS_PLAN_H
 
+#include <stdatomic.h>
+
 #include "filters/resampler.h"
 #include "filters/rows.h"
 
@@ -16,8 +18,9 @@ typedef struct wf_term {
     double weight, v0, v1; /* the cell's edges, seen from the line */
 } wf_term;
 
+/* What a band adds to; lines: those that reach some row of it. */
 typedef struct wf_band {
-    wf_span rows, terms, sums;
+    wf_span rows, terms, sums, lines;
 } wf_band;
 
 /* A line is made of sums, each through a horizontal kernel. */
@@ -39,7 +42,8 @@ typedef struct wf_plan {
     wf_band *bands;
     wf_term *terms;
     wf_tap *taps;
-    wf_span *line_taps;                              /* [lines] */
+    wf_span *line_taps; /* [lines] */
+    int *line_bands;    /* [lines]: how many bands a line reaches */
     int term_count, tap_count, sum_count, most_sums; /* most_sums: of any band */
 } wf_plan;
 
@@ -93,6 +97,7 @@ struct wf_field {
     bool carried;       /* carry holds something */
     bool last;          /* the batch in hand completes the window */
     bool complete;
+    atomic_int *bands_left; /* [lines]: how many of its bands are not closed yet */
     double *inside,
         *exists; /* [sums]: weight that met the display window's rows; and padding's */
     double

@@ -79,6 +79,8 @@ typedef struct wf_band_input {
 /* Whether data reaches past the display window to where some aperture looks. */
 bool wf_resampler_overscan(const wf_resampler *resampler, const wf_cells *data);
 
+int64_t wf_field_index(const wf_field *field);
+
 /* Before a batch, once, by one thread: makes room for what the batch leaves. last: the batch
  * holds the rest of the field's window; overscan: some subframe of it has overscan. False: no
  * memory. */
@@ -92,14 +94,24 @@ void wf_band_add(wf_field *field, int band, wf_scratch *scratch, int slot,
                  const wf_band_input *input);
 void wf_band_close(wf_field *field, int band, wf_scratch *scratch, int slot);
 
+/* Where the batch completes the field: the lines that the band just closed reaches (none
+ * otherwise). Each of them is asked about once for each of its bands; when the last of these is
+ * closed, wf_field_line_ready is true, and the asking thread may finish the line while its sums
+ * are near. */
+wf_span wf_band_lines(const wf_field *field, int band);
+bool wf_field_line_ready(wf_field *field, int line);
+
+/* Whether the lines of a complete field have been ready, every one, and were taken. */
+bool wf_field_lines_taken(const wf_field *field);
+
 /* After all bands of a batch, once. */
 void wf_field_end_batch(wf_field *field);
 
 /* Whether the whole window has been added: lines can be finished, nothing more may be added. */
 bool wf_field_complete(const wf_field *field);
 
-/* Line l of a field whose window is complete (frame line parity + step l): scene-linear R, G,
- * B, width_px samples each, over the background. */
+/* Line l of a field (frame line parity + step l), ready or with its window complete:
+ * scene-linear R, G, B, width_px samples each, over the background. */
 void wf_field_line(const wf_field *field, int line, wf_scratch *scratch, float *const rgb[3]);
 
 #endif
