@@ -265,6 +265,14 @@ static void tell_timecode(const char *text, ImageSpec &spec) {
     spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, word);
 }
 
+// PNG and TIFF have no pixel aspect but the ratio of two densities, which OpenImageIO rounds to
+// whole numbers; 6600 = 600 x 11 keeps the elevenths of 525 and 625 lines exact.
+static void tell_density(const wf_oiio_picture &p, ImageSpec &spec) {
+    spec.attribute("XResolution", 6600.0f);
+    spec.attribute("YResolution", float(std::round(6600 * p.pixel_aspect)));
+    spec.attribute("ResolutionUnit", "none");
+}
+
 static ImageSpec describe_output(const wf_oiio_picture &p) {
     const TypeDesc type = p.bits == 32 ? TypeDesc::FLOAT
                           : p.bits > 8 ? TypeDesc::UINT16
@@ -274,6 +282,7 @@ static ImageSpec describe_output(const wf_oiio_picture &p) {
     spec.attribute("PixelAspectRatio", float(p.pixel_aspect));
     spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
     spec.attribute("Software", "weft " WEFT_VERSION);
+    if (!std::strcmp(p.format, "png") || !std::strcmp(p.format, "tiff")) tell_density(p, spec);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (!std::strcmp(p.format, "openexr")) {
         spec.attribute("compression", "zip");

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/formats.h"
 #include "convert/module.h"
 #include "convert/oiio.h"
 #include "convert/subframe.h"
@@ -87,7 +88,9 @@ static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int pa
     wf_pick pick;
     s->layer = o->layer;
     s->part = part < 0 ? 0 : part;
-    weft_status status = probe(s, o, &s->info, &pick, err);
+    const char *format;
+    weft_status status = wf_format_of(s->path, &format, err);
+    if (!status) status = probe(s, o, &s->info, &pick, err);
     if (status) return status;
     s->layout.channels = pick.count;
     s->info.has_alpha = pick.count == 4;
