@@ -1,357 +1,498 @@
-// The OpenImageIO module (convert/oiio.h): formats that weft does not read or write itself.
+// The OpenImageIO module: formats that weft neither reads nor writes itself.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/sysutil.h>
 
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <exception>
-#include <memory>
+#include <mutex>
+#include <new>
 #include <string>
 #include <vector>
 
 extern "C" {
+#include "convert/formats.h"
 #include "convert/oiio.h"
+#include "convert/timecode.h"
+
+WEFT_API wf_oiio_probe_fn wf_oiio_probe;
+WEFT_API wf_oiio_read_fn wf_oiio_read;
+WEFT_API wf_oiio_write_fn wf_oiio_write;
 }
 
-using OIIO::ImageInput;
-using OIIO::ImageOutput;
-using OIIO::ImageSpec;
-using OIIO::TypeDesc;
+using namespace OIIO;
 
-#define ENTRY extern "C" __attribute__((visibility("default"))) weft_status
+namespace {
 
-// Runs f; what it throws becomes an error that names the file.
-template <class F> static weft_status guarded(const char *path, weft_error *err, F f) {
+// Threads are weft's own; those of OpenImageIO and OpenEXR would outlive the job.
+void prepare() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        attribute("threads", 1);
+        attribute("exr_threads", -1);
+    });
+}
+
+// Runs work, of which nothing may be thrown at C.
+template <typename Work> weft_status guarded(const char *what, weft_error *err, Work work) {
     try {
-        return f();
+        prepare();
+        return work();
     } catch (const std::bad_alloc &) {
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the picture", path);
+        return wf_fail(err, WEFT_NO_MEMORY, "%.700s: out of memory", what);
     } catch (const std::exception &e) {
-        return wf_fail(err, WEFT_FAILED, "%s: %s", path, e.what());
+        return wf_fail(err, WEFT_FAILED, "%.600s: %.300s", what, e.what());
     } catch (...) {
-        return wf_fail(err, WEFT_FAILED, "%s: OpenImageIO gave up", path);
+        return wf_fail(err, WEFT_FAILED, "%.700s: OpenImageIO failed without saying why", what);
     }
 }
 
-// OpenImageIO's message on one line.
-static std::string one_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    for (char &c : text)
-        if (c == '\n') c = ' ';
-    return text.empty() ? "OpenImageIO does not say why" : text;
+// What a reader or writer has to say, which some leave out.
+template <typename Unit>
+weft_status trouble(Unit &unit, const char *what, const char *doing, weft_error *err) {
+    std::string says = unit ? unit->geterror() : OIIO::geterror();
+    std::replace(says.begin(), says.end(), '\n', ' ');
+    if (says.empty()) says = "OpenImageIO does not say why; the file may be damaged";
+    return wf_fail(err, WEFT_FAILED, "%.600s: it cannot be %s: %.300s", what, doing,
+                   says.c_str());
 }
 
-// Threads are the caller's; the library is to start none of its own.
-static void settle() {
-    static const bool once =
-        OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
-    (void)once;
-}
+// ---- Opening ----
 
-// ---- Reading
-// --------------------------------------------------------------------------------------
-
-static std::unique_ptr<ImageInput> open_input(const char *path, int part, weft_status *status,
-                                              weft_error *err) {
-    settle();
-    std::unique_ptr<ImageInput> in = ImageInput::open(path);
-    if (!in) {
-        *status = wf_fail(err, WEFT_FAILED, "%s: not a picture that can be read: %s", path,
-                          one_line(OIIO::geterror()).c_str());
-    } else if (part > 0 && !in->seek_subimage(part, 0)) {
-        *status = wf_fail(err, WEFT_FAILED, "%s: there is no picture %d in it", path, part);
-        in.reset();
-    }
-    return in;
-}
-
-static wf_box box_of(int x, int y, int width, int height) {
-    return wf_box{x, y, x + width, y + height};
-}
-
-static wf_rational ratio_of(const ImageSpec &spec, const char *name) {
-    const OIIO::ParamValue *value = spec.find_attribute(name);
-    wf_rational ratio = {0, 0};
-    if (!value) return ratio;
-    if (value->type() == OIIO::TypeRational) {
-        const int *pair = static_cast<const int *>(value->data());
-        return wf_ratio(pair[0], pair[1]);
-    }
-    if (!wf_rate_parse(value->get_string().c_str(), &ratio)) return wf_rational{0, 0};
-    return ratio;
-}
-
-static wf_rational first_given(const ImageSpec &spec,
-                               std::initializer_list<const char *> names) {
-    for (const char *name : names) {
-        wf_rational ratio = ratio_of(spec, name);
-        if (wf_ratio_given(ratio) && ratio.num > 0) return ratio;
-    }
-    return wf_rational{0, 0};
-}
-
-static void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
-    *info = wf_image_info{};
-    info->display = box_of(spec.full_x, spec.full_y, spec.full_width, spec.full_height);
-    info->data = box_of(spec.x, spec.y, spec.width, spec.height);
-    info->pixel_aspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
-    info->rate = first_given(spec, {"weft:subframeRate", "FramesPerSecond", "dpx:FrameRate"});
-    info->time_s = ratio_of(spec, "weft:time");
-    info->whole = true;
-    std::string channels;
-    for (size_t c = 0; c < spec.channelnames.size() && c < 4; c++)
-        channels += " " + spec.channelnames[c];
-    std::snprintf(info->format, sizeof info->format, "%s,%s %s", in.format_name(),
-                  channels.c_str(), spec.format.c_str());
-    std::string timecode = spec.get_string_attribute("smpte:TimeCode");
-    if (timecode.size() < sizeof info->timecode)
-        std::memcpy(info->timecode, timecode.c_str(), timecode.size() + 1);
-}
-
-static weft_status check(const char *path, const ImageSpec &spec, size_t max_memory_bytes,
-                         weft_error *err) {
-    if (spec.deep)
-        return wf_fail(err, WEFT_FAILED, "%s: a deep picture; weft reads flat ones here", path);
-    if (spec.depth > 1 || spec.full_depth > 1)
-        return wf_fail(err, WEFT_FAILED, "%s: a volume, not a picture", path);
-    if (spec.width < 1 || spec.height < 1 || spec.full_width < 1 || spec.full_height < 1 ||
-        spec.nchannels < 1)
-        return wf_fail(err, WEFT_FAILED, "%s: it has no pixels", path);
-    double bytes = double(spec.width) * spec.height * spec.nchannels * sizeof(float);
-    if (bytes > double(max_memory_bytes) / 2)
-        return wf_fail(err, WEFT_NO_MEMORY,
-                       "%s: its %dx%d pixels take %.0f MB; raise --max-memory", path,
-                       spec.width, spec.height, bytes / 1048576);
-    return WEFT_OK;
-}
-
-static weft_status hand_names(const char *path, const ImageSpec &spec, int *count, char **names,
-                              weft_error *err) {
-    std::string all;
-    for (const std::string &name : spec.channelnames)
-        all += name.c_str() + std::string(1, '\0');
-    *count = int(spec.channelnames.size());
-    *names = static_cast<char *>(std::malloc(all.size() + 1));
-    if (!*names) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for channel names", path);
-    std::memcpy(*names, all.data(), all.size());
-    return WEFT_OK;
-}
-
-ENTRY wf_oiio_probe(const char *path, int part, size_t max_memory_bytes, wf_image_info *info,
-                    int *channel_count, char **names, weft_error *err) {
-    return guarded(path, err, [&] {
-        weft_status status = WEFT_OK;
-        auto in = open_input(path, part, &status, err);
-        if (!in) return status;
-        const ImageSpec spec = in->spec();
-        describe(*in, spec, info);
-        status = check(path, spec, max_memory_bytes, err);
-        return status ? status : hand_names(path, spec, channel_count, names, err);
-    });
-}
-
-// Which run of channels holds all those wanted.
-static void channel_range(const int *channel, int count, int *first, int *end) {
-    *first = *end = channel[0];
-    for (int c = 0; c < count; c++) {
-        if (channel[c] < *first) *first = channel[c];
-        if (channel[c] >= *end) *end = channel[c] + 1;
-    }
-}
-
-static void unravel(const std::vector<float> &pixels, int stride, const int *channel, int count,
-                    int first, float *planes) {
-    const size_t samples = pixels.size() / size_t(stride);
-    for (int c = 0; c < count; c++)
-        for (size_t i = 0; i < samples; i++)
-            planes[size_t(c) * samples + i] =
-                pixels[i * size_t(stride) + size_t(channel[c] - first)];
-}
-
-ENTRY wf_oiio_read(const char *path, int part, const int *channel, int count,
-                   const wf_box *data, float *planes, weft_error *err) {
-    return guarded(path, err, [&] {
-        weft_status status = WEFT_OK;
-        auto in = open_input(path, part, &status, err);
-        if (!in) return status;
-        const ImageSpec spec = in->spec();
-        const wf_box box = box_of(spec.x, spec.y, spec.width, spec.height);
-        int first, end;
-        channel_range(channel, count, &first, &end);
-        if (std::memcmp(&box, data, sizeof box) || end > spec.nchannels)
-            return wf_fail(err, WEFT_FAILED, "%s: it changed while it was read", path);
-        std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) *
-                                  size_t(end - first));
-        if (!in->read_image(in->current_subimage(), 0, first, end, TypeDesc::FLOAT,
-                            pixels.data()))
-            return wf_fail(err, WEFT_FAILED, "%s: it is damaged or cut short: %s", path,
-                           one_line(in->geterror()).c_str());
-        unravel(pixels, end - first, channel, count, first, planes);
-        return WEFT_OK;
-    });
-}
-
-// ---- Writing
-// --------------------------------------------------------------------------------------
-
-// A file in memory under a name that every writer of OpenImageIO can open, seek and rewrite.
-class memory_file {
+// A file that remembers whether more was wanted of it than it has. Readers of DPX and TIFF take
+// what they do not get for read.
+class File final : public Filesystem::IOFile {
   public:
-    memory_file() : descriptor(memfd_create("weft-picture", MFD_CLOEXEC)) {}
-    memory_file(const memory_file &) = delete;
-    ~memory_file() {
-        if (descriptor >= 0) close(descriptor);
+    bool starved = false;
+    explicit File(const char *path) : IOFile(path, Read) {}
+    size_t read(void *to, size_t bytes) override {
+        return note(IOFile::read(to, bytes), bytes);
     }
-    std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor); }
-    const int descriptor;
+    size_t pread(void *to, size_t bytes, int64_t offset) override {
+        return note(IOFile::pread(to, bytes, offset), bytes);
+    }
+
+  private:
+    size_t note(size_t got, size_t bytes) {
+        starved |= got < bytes;
+        return got;
+    }
 };
 
-static weft_status hand_bytes(const memory_file &file, wf_oiio_bytes_fn *write, void *user,
-                              weft_error *err) {
-    struct stat about;
-    if (fstat(file.descriptor, &about) || about.st_size <= 0)
-        return wf_fail(err, WEFT_FAILED, "OpenImageIO encoded an empty picture");
-    const size_t size = size_t(about.st_size);
-    void *bytes = mmap(nullptr, size, PROT_READ, MAP_SHARED, file.descriptor, 0);
-    if (bytes == MAP_FAILED)
-        return wf_fail(err, WEFT_NO_MEMORY, "no memory to read an encoded picture");
-    weft_status status = write(user, bytes, size, err);
-    munmap(bytes, size);
-    return status;
+struct Input {
+    std::unique_ptr<File> file; // outlives its reader
+    std::unique_ptr<ImageInput> reader;
+};
+
+weft_status open_input(const char *path, int part, Input &in, weft_error *err) {
+    const char *format;
+    weft_status status = wf_format_of(path, &format, err);
+    if (status) return status;
+    in.reader = ImageInput::create(format);
+    in.file = std::make_unique<File>(path);
+    if (in.reader && in.reader->supports("ioproxy")) in.reader->set_ioproxy(in.file.get());
+    ImageSpec spec, config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // samples as they are in the file
+    if (!in.reader || !in.reader->open(path, spec, config))
+        return trouble(in.reader, path, "opened", err);
+    if (in.reader->seek_subimage(std::max(part, 0), 0)) return WEFT_OK;
+    (void)in.reader->geterror();
+    return wf_fail(err, WEFT_FAILED, "%.700s: it has no part %d", path, part);
 }
 
-// What DPX calls the transfer and the primaries of a space.
-static const char *dpx_space(const std::string &space) {
+// Pictures whose lines are stored in another order than they are seen in are turned by their
+// readers.
+weft_status check_picture(const char *path, const ImageSpec &spec, weft_error *err) {
+    if (spec.deep)
+        return wf_fail(err, WEFT_FAILED,
+                       "%.700s: its pixels are deep; flatten it (oiiotool --flatten)", path);
+    if (spec.depth > 1)
+        return wf_fail(err, WEFT_FAILED, "%.700s: it is a volume of %d slices, not a picture",
+                       path, spec.depth);
+    if (spec.width < 1 || spec.height < 1 || spec.full_width < 1 || spec.full_height < 1 ||
+        spec.nchannels < 1 || spec.nchannels > 1024)
+        return wf_fail(err, WEFT_FAILED,
+                       "%.700s: a picture of %dx%d pixels and %d channels cannot be read", path,
+                       spec.width, spec.height, spec.nchannels);
+    int orientation = spec.get_int_attribute("Orientation", 1);
+    if (orientation > 1)
+        return wf_fail(err, WEFT_FAILED,
+                       "%.700s: its orientation is %d, which turns it; write it upright "
+                       "(oiiotool --reorient)",
+                       path, orientation);
+    return WEFT_OK;
+}
+
+weft_status check_size(const char *path, const ImageSpec &spec, size_t most, weft_error *err) {
+    double bytes =
+        double(spec.width) * spec.height * std::min(spec.nchannels, 4) * sizeof(float);
+    if (bytes <= double(most)) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "%.700s: %dx%d pixels take %.0f MB, and --max-memory allows %zu MB; allow more", path,
+        spec.width, spec.height, bytes / (1 << 20), most >> 20);
+}
+
+// ---- Facts ----
+
+// A rate as a float: files hold 30000/1001 as 29.97.
+wf_rational rate_of_float(double value) {
+    if (!(value >= 1e-3 && value <= 1e6)) return {0, 0};
+    const int64_t thousandths = std::llround(value * 1000), whole = std::llround(value);
+    const int64_t ntsc = std::llround(value * 1.001);
+    if (std::fabs(value - double(whole)) < 1e-4 * value) return {whole, 1};
+    if (std::fabs(value * 1.001 - double(ntsc)) < 1e-4 * value)
+        return wf_ratio(ntsc * 1000, 1001);
+    return wf_ratio(thousandths, 1000);
+}
+
+wf_rational ratio_attribute(const ImageSpec &spec, const char *name) {
+    const ParamValue *p = spec.find_attribute(name);
+    wf_rational value = {0, 0};
+    if (!p) return value;
+    const TypeDesc type = p->type();
+    if (type.basetype == TypeDesc::INT && type.basevalues() == 2)
+        return wf_ratio(p->get<int>(0), p->get<int>(1));
+    if (type == TypeDesc::STRING)
+        wf_rate_parse(p->get_string().c_str(), &value);
+    else
+        value = rate_of_float(p->get_float(0));
+    return value;
+}
+
+wf_rational rate_of(const ImageSpec &spec) {
+    for (const char *name :
+         {"weft:subframeRate", "framesPerSecond", "dpx:FrameRate", "dpx:TemporalFrameRate"}) {
+        wf_rational rate = ratio_attribute(spec, name);
+        if (wf_ratio_given(rate) && rate.num > 0) return rate;
+    }
+    return {0, 0};
+}
+
+// The BCD word of ST 12-1 (convert/timecode.h) as text; digits out of range are no timecode.
+void read_timecode(const ImageSpec &spec, wf_image_info *info) {
+    const ParamValue *p = spec.find_attribute("smpte:TimeCode");
+    if (!p || p->type().size() < sizeof(uint32_t)) return;
+    uint32_t t;
+    std::memcpy(&t, p->data(), sizeof t);
+    const unsigned pair[4] = {t >> 24 & 0x3f, t >> 16 & 0x7f, t >> 8 & 0x7f, t & 0x3f};
+    unsigned value[4];
+    for (int i = 0; i < 4; i++) {
+        if ((pair[i] & 15) > 9) return;
+        value[i] = 10 * (pair[i] >> 4) + (pair[i] & 15);
+    }
+    snprintf(info->timecode, sizeof info->timecode, "%02u:%02u:%02u%c%02u", value[0], value[1],
+             value[2], t & 0x40 ? ';' : ':', value[3]);
+}
+
+void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
+    std::string channels;
+    for (int c = 0; c < spec.nchannels && c < 4; c++)
+        channels += " " + spec.channelnames[size_t(c)].substr(0, 8);
+    if (spec.nchannels > 4) channels += " ..";
+    const int bits = spec.get_int_attribute("oiio:BitsPerSample", int(8 * spec.format.size()));
+    snprintf(info->format, sizeof info->format, "%s,%s %s%d", in.format_name(),
+             channels.c_str(), spec.format.is_floating_point() ? "float" : "uint", bits);
+}
+
+void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
+    *info = wf_image_info{};
+    info->display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
+                     spec.full_y + spec.full_height};
+    info->data = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+    const double aspect = spec.get_float_attribute("PixelAspectRatio", 1);
+    info->pixel_aspect = aspect > 1e-3 && aspect < 1e3 ? aspect : 1;
+    info->rate = rate_of(spec);
+    info->time_s = ratio_attribute(spec, "weft:time");
+    info->has_alpha = spec.alpha_channel >= 0;
+    info->whole = true;
+    info->band_lines = spec.height;
+    read_timecode(spec, info);
+    describe(in, spec, info);
+}
+
+char *join_names(const ImageSpec &spec) {
+    size_t bytes = 1;
+    for (const std::string &name : spec.channelnames) bytes += name.size() + 1;
+    char *names = static_cast<char *>(std::calloc(bytes, 1)), *at = names;
+    for (const std::string &name : spec.channelnames)
+        if (names) at += name.copy(at, std::strlen(name.c_str())) + 1;
+    return names;
+}
+
+// ---- Reading ----
+
+// A multiple of the lines that any EXR compression takes together (DWAB: 256).
+constexpr int SLAB_LINES = 256;
+
+struct Reading {
+    const char *path;
+    int part;
+    const int *channel;
+    int count;
+    int first, end; // the file's channels that are read, the picked ones among them
+    std::vector<float> slab;
+};
+
+bool read_slab(ImageInput &in, const ImageSpec &spec, Reading &r, int y0, int y1) {
+    if (spec.tile_width)
+        return in.read_tiles(r.part, 0, spec.x, spec.x + spec.width, y0, y1, spec.z, spec.z + 1,
+                             r.first, r.end, TypeDesc::FLOAT, r.slab.data());
+    return in.read_scanlines(r.part, 0, y0, y1, spec.z, r.first, r.end, TypeDesc::FLOAT,
+                             r.slab.data());
+}
+
+void spread_slab(const ImageSpec &spec, const Reading &r, int y0, int y1, float *planes) {
+    const size_t width = size_t(spec.width), step = size_t(r.end - r.first);
+    const size_t samples = width * size_t(y1 - y0), before = width * size_t(y0 - spec.y);
+    for (int c = 0; c < r.count; c++) {
+        const float *from = r.slab.data() + (r.channel[c] - r.first);
+        float *to = planes + size_t(c) * width * size_t(spec.height) + before;
+        for (size_t i = 0; i < samples; i++) to[i] = from[i * step];
+    }
+}
+
+weft_status read_picture(Input &in, const ImageSpec &spec, Reading &r, float *planes,
+                         weft_error *err) {
+    const int tile = std::max(spec.tile_height, 1), bottom = spec.y + spec.height;
+    const int lines = std::min((SLAB_LINES + tile - 1) / tile * tile, spec.height);
+    r.slab.resize(size_t(lines) * size_t(spec.width) * size_t(r.end - r.first));
+    for (int y = spec.y; y < bottom; y += lines) {
+        const int end = std::min(y + lines, bottom);
+        if (!read_slab(*in.reader, spec, r, y, end)) {
+            char doing[64];
+            snprintf(doing, sizeof doing, "read at lines %d to %d", y - spec.full_y,
+                     end - 1 - spec.full_y);
+            return trouble(in.reader, r.path, doing, err);
+        }
+        spread_slab(spec, r, y, end, planes);
+    }
+    if (!in.file->starved) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%.700s: the file ends before its picture does; write it again", r.path);
+}
+
+bool same_window(const ImageSpec &spec, const wf_box &data) {
+    return spec.x == data.x0 && spec.y == data.y0 && spec.width == data.x1 - data.x0 &&
+           spec.height == data.y1 - data.y0;
+}
+
+weft_status read_checked(Input &in, Reading &r, const wf_box &data, float *planes,
+                         weft_error *err) {
+    const ImageSpec spec = in.reader->spec();
+    const auto range = std::minmax_element(r.channel, r.channel + r.count);
+    r.first = *range.first;
+    r.end = *range.second + 1;
+    weft_status status = check_picture(r.path, spec, err);
+    if (status) return status;
+    if (!same_window(spec, data) || r.first < 0 || r.end > spec.nchannels)
+        return wf_fail(err, WEFT_FAILED,
+                       "%.700s: it is no longer what it was when it was opened; write it "
+                       "before it is read",
+                       r.path);
+    return read_picture(in, spec, r, planes, err);
+}
+
+// ---- Writing ----
+
+// Memory that a writer seeks in. Writers that overlook failures are found out by it.
+class Memory final : public Filesystem::IOVecOutput {
+  public:
+    bool failed = false;
+    size_t write(const void *data, size_t bytes) override {
+        try {
+            const size_t written = IOVecOutput::write(data, bytes);
+            failed |= written != bytes;
+            return written;
+        } catch (...) { // not through the C of libpng and libtiff
+            failed = true;
+            return 0;
+        }
+    }
+};
+
+// The labels that DPX has for how codes are to be understood, by weft's names of color spaces.
+const char *dpx_characteristic(const std::string &space) {
     static const struct {
-        const char *start, *name;
-    } spaces[] = {{"rec601-525", "ITU-R 601-5 system M"},
+        const char *space, *label;
+    } labels[] = {{"rec601-525", "ITU-R 601-5 system M"},
                   {"rec601-625", "ITU-R 601-5 system B or G"},
-                  {"rec709", "ITU-R 709-4"}};
-    for (const auto &known : spaces)
-        if (!space.compare(0, std::strlen(known.start), known.start)) return known.name;
+                  {"rec709", "ITU-R 709-4"},
+                  {"lin_", "Linear"}};
+    for (const auto &row : labels)
+        if (!space.compare(0, std::strlen(row.space), row.space)) return row.label;
     return "User defined";
 }
 
-static void tell_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
+const char *order_name(const wf_oiio_picture &p) {
+    return !p.interlaced ? "progressive" : p.top_first ? "top first" : "bottom first";
+}
+
+void describe_time(const wf_oiio_picture &p, ImageSpec &spec) {
+    wf_timecode label;
+    if (!wf_parse_timecode(p.timecode, &label)) return;
+    const unsigned words[2] = {wf_timecode_bcd(&label, p.frame_rate), 0}; // and no user bits
+    spec.attribute("smpte:TimeCode", TypeTimeCode, words);
+}
+
+void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
+    const int rate[2] = {int(p.frame_rate.num), int(p.frame_rate.den)};
+    spec.attribute("compression", "zip");
+    spec.attribute("framesPerSecond", TypeRational, rate);
+    if (*p.raster) spec.attribute("weft:raster", p.raster);
+    if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
+    describe_time(p, spec);
+}
+
+// ST 268 has two elements for fields. Where both are woven into one picture, the field number
+// here is that of the field which owns the top line: 1 is top first, 2 bottom first.
+void describe_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
     const float rate = float(wf_ratio_value(p.frame_rate));
+    const char *label = dpx_characteristic(p.color_space);
     spec.attribute("oiio:BitsPerSample", p.bits);
-    spec.attribute("dpx:Interlace", p.interlaced ? 1 : 0);
-    spec.attribute("dpx:FieldNumber", p.interlaced ? 1 : 0); // a frame begins with field 1
+    spec.attribute("oiio:Endian", "big");
     spec.attribute("dpx:FrameRate", rate);
     spec.attribute("dpx:TemporalFrameRate", rate);
-    spec.attribute("dpx:Transfer", dpx_space(p.color_space));
-    spec.attribute("dpx:Colorimetric", dpx_space(p.color_space));
-    if (*p.timecode) spec.attribute("dpx:TimeCode", p.timecode);
+    spec.attribute("dpx:Interlace", int(p.interlaced));
+    spec.attribute("dpx:FieldNumber", p.interlaced && !p.top_first ? 2 : 1);
+    spec.attribute("dpx:Transfer", label);
+    spec.attribute("dpx:Colorimetric", label);
+    describe_time(p, spec);
 }
 
-static int digits(const char *text) {
-    return (text[0] - '0') << 4 | (text[1] - '0');
-}
-
-static void tell_timecode(const char *text, ImageSpec &spec) {
-    if (std::strlen(text) != 11) return;
-    const unsigned drop = text[8] == ';' ? 0x40 : 0;
-    const unsigned word[2] = {unsigned(digits(text)) << 24 | unsigned(digits(text + 3)) << 16 |
-                                  unsigned(digits(text + 6)) << 8 | unsigned(digits(text + 9)) |
-                                  drop,
-                              0};
-    spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, word);
-}
-
-// PNG and TIFF have no pixel aspect but the ratio of two densities, which OpenImageIO rounds to
-// whole numbers; 6600 = 600 x 11 keeps the elevenths of 525 and 625 lines exact.
-static void tell_density(const wf_oiio_picture &p, ImageSpec &spec) {
+// Neither has a pixel aspect but the ratio of two densities, which is cut off to whole numbers;
+// 6600 = 600 x 11 keeps the elevenths of 525 and 625 lines exact.
+void describe_density(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("XResolution", 6600.0f);
     spec.attribute("YResolution", float(std::round(6600 * p.pixel_aspect)));
     spec.attribute("ResolutionUnit", "none");
 }
 
-static ImageSpec describe_output(const wf_oiio_picture &p) {
-    const TypeDesc type = p.bits == 32 ? TypeDesc::FLOAT
-                          : p.bits > 8 ? TypeDesc::UINT16
-                                       : TypeDesc::UINT8;
+void describe_tiff(const wf_oiio_picture &p, ImageSpec &spec) {
+    spec.attribute("compression", "zip");
+    describe_density(p, spec);
+}
+
+void describe_png(const wf_oiio_picture &p, ImageSpec &spec) {
+    spec.attribute("png:compressionLevel", 4);
+    spec.attribute("weft:raster", p.raster);
+    spec.attribute("weft:timecode", p.timecode);
+    describe_density(p, spec);
+}
+
+const struct {
+    const char *format;
+    void (*describe)(const wf_oiio_picture &p, ImageSpec &spec);
+} writers[] = {{"openexr", describe_exr},
+               {"dpx", describe_dpx},
+               {"tiff", describe_tiff},
+               {"png", describe_png}};
+
+ImageSpec spec_of(const wf_oiio_picture &p) {
+    const TypeDesc type = p.bits == 32  ? TypeDesc::FLOAT
+                          : p.bits == 8 ? TypeDesc::UINT8
+                                        : TypeDesc::UINT16;
     ImageSpec spec(p.width_px, p.lines, 3, type);
-    const int rate[2] = {int(p.frame_rate.num), int(p.frame_rate.den)};
-    spec.attribute("PixelAspectRatio", float(p.pixel_aspect));
-    spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
     spec.attribute("Software", "weft " WEFT_VERSION);
-    if (!std::strcmp(p.format, "png") || !std::strcmp(p.format, "tiff")) tell_density(p, spec);
-    if (*p.raster) spec.attribute("weft:raster", p.raster);
-    if (!std::strcmp(p.format, "openexr")) {
-        spec.attribute("compression", "zip");
-        tell_timecode(p.timecode, spec);
-    }
-    if (!std::strcmp(p.format, "tiff")) spec.attribute("compression", "zip");
-    if (!std::strcmp(p.format, "dpx")) tell_dpx(p, spec);
+    spec.attribute("DateTime", ""); // or the writer's clock: equal frames are to be equal files
+    spec.attribute("Orientation", 1);
+    spec.attribute("PixelAspectRatio", float(p.pixel_aspect));
+    // DPX has room for 31 characters.
+    spec.attribute("ImageDescription",
+                   std::string(p.raster).substr(0, 17) + ", " + order_name(p));
+    for (const auto &row : writers)
+        if (!std::strcmp(row.format, p.format)) row.describe(p, spec);
     return spec;
 }
 
-// Codes of fewer bits than their type has are spread over it by repeating their top bits, which
-// the writer drops again.
-static void ravel(const wf_oiio_picture &p, int y, int spread, uint16_t *to) {
-    for (int c = 0; c < 3; c++) {
-        const uint16_t *from =
-            static_cast<const uint16_t *>(p.plane[c]) + size_t(y) * p.line_stride[c];
-        for (int x = 0; x < p.width_px; x++)
-            to[3 * x + c] =
-                uint16_t(from[x] << spread | (spread ? from[x] >> (16 - 2 * spread) : 0));
+// OpenImageIO takes 10 and 12 bits as 16 of the same meaning, and drops the lower ones.
+struct Codes8 {
+    using type = uint8_t;
+    static uint8_t convert(uint16_t code, int) { return uint8_t(code); }
+};
+struct Codes16 {
+    using type = uint16_t;
+    static uint16_t convert(uint16_t code, int bits) {
+        return uint16_t(code << (16 - bits) | (bits < 16 ? code >> (2 * bits - 16) : 0));
     }
-}
+};
+struct Floats {
+    using type = float;
+    static float convert(float sample, int) { return sample; }
+};
 
-static void ravel(const wf_oiio_picture &p, int y, float *to) {
-    for (int c = 0; c < 3; c++) {
-        const float *from =
-            static_cast<const float *>(p.plane[c]) + size_t(y) * p.line_stride[c];
-        for (int x = 0; x < p.width_px; x++) to[3 * x + c] = from[x];
+template <typename From, typename Kind>
+bool write_lines(ImageOutput &out, const wf_oiio_picture &p) {
+    std::vector<typename Kind::type> line(3 * size_t(p.width_px));
+    for (int y = 0; y < p.lines; y++) {
+        for (size_t c = 0; c < 3; c++) {
+            const From *from =
+                static_cast<const From *>(p.plane[c]) + size_t(y) * p.line_stride[c];
+            for (size_t x = 0; x < size_t(p.width_px); x++)
+                line[3 * x + c] = Kind::convert(from[x], p.bits);
+        }
+        if (!out.write_scanline(y, 0, out.spec().format, line.data())) return false;
     }
+    return true;
 }
 
-// Lines y0 <= y < y1, in the type the file has.
-static bool write_lines(const wf_oiio_picture &p, int y0, int y1, ImageOutput &out) {
-    const size_t line = 3 * size_t(p.width_px), count = line * size_t(y1 - y0);
-    if (p.bits == 32) {
-        std::vector<float> pixels(count);
-        for (int y = y0; y < y1; y++) ravel(p, y, &pixels[size_t(y - y0) * line]);
-        return out.write_scanlines(y0, y1, 0, TypeDesc::FLOAT, pixels.data());
-    }
-    std::vector<uint16_t> pixels(count);
-    const int spread = p.bits > 8 ? 16 - p.bits : 0;
-    for (int y = y0; y < y1; y++) ravel(p, y, spread, &pixels[size_t(y - y0) * line]);
-    if (p.bits > 8) return out.write_scanlines(y0, y1, 0, TypeDesc::UINT16, pixels.data());
-    const std::vector<uint8_t> bytes(pixels.begin(), pixels.end());
-    return out.write_scanlines(y0, y1, 0, TypeDesc::UINT8, bytes.data());
+bool write_picture(ImageOutput &out, const wf_oiio_picture &p) {
+    if (p.bits == 32) return write_lines<float, Floats>(out, p);
+    if (p.bits == 8) return write_lines<uint16_t, Codes8>(out, p);
+    return write_lines<uint16_t, Codes16>(out, p);
 }
 
-// In blocks, so that the picture is not in memory twice.
-static bool write_pixels(const wf_oiio_picture &p, ImageOutput &out) {
-    const int block = 64;
-    bool fine = true;
-    for (int y = 0; fine && y < p.lines; y += block)
-        fine = write_lines(p, y, y + block < p.lines ? y + block : p.lines, out);
-    return fine;
+weft_status encode(const wf_oiio_picture &p, Memory &memory, weft_error *err) {
+    std::unique_ptr<ImageOutput> out = ImageOutput::create(p.format);
+    if (!out) return trouble(out, p.format, "written", err);
+    if (!out->supports("ioproxy") || !out->set_ioproxy(&memory))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: this OpenImageIO writes it to files only; it needs 2.4", p.format);
+    bool done = out->open("", spec_of(p)) && write_picture(*out, p);
+    done &= out->close();
+    if (memory.failed)
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the encoded picture", p.format);
+    if (!done || memory.buffer().empty()) return trouble(out, p.format, "written", err);
+    return WEFT_OK;
 }
 
-ENTRY wf_oiio_write(const wf_oiio_picture *picture, wf_oiio_bytes_fn *write, void *user,
-                    weft_error *err) {
+} // namespace
+
+extern "C" weft_status wf_oiio_probe(const char *path, int part, size_t max_memory_bytes,
+                                     wf_image_info *info, int *channel_count, char **names,
+                                     weft_error *err) {
+    *names = nullptr;
+    return guarded(path, err, [&] {
+        Input in;
+        weft_status status = open_input(path, part, in, err);
+        if (status) return status;
+        const ImageSpec spec = in.reader->spec();
+        status = check_picture(path, spec, err);
+        if (!status) status = check_size(path, spec, max_memory_bytes, err);
+        if (status) return status;
+        fill_info(*in.reader, spec, info);
+        *channel_count = spec.nchannels;
+        *names = join_names(spec);
+        return *names ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "%.700s: out of memory", path);
+    });
+}
+
+extern "C" weft_status wf_oiio_read(const char *path, int part, const int *channel, int count,
+                                    const wf_box *data, float *planes, weft_error *err) {
+    return guarded(path, err, [&] {
+        Input in;
+        Reading reading = {path, std::max(part, 0), channel, count, 0, 0, {}};
+        weft_status status = open_input(path, part, in, err);
+        return status ? status : read_checked(in, reading, *data, planes, err);
+    });
+}
+
+extern "C" weft_status wf_oiio_write(const wf_oiio_picture *picture, wf_oiio_bytes_fn *write,
+                                     void *user, weft_error *err) {
     return guarded(picture->format, err, [&] {
-        settle();
-        const memory_file file;
-        auto out = ImageOutput::create(picture->format);
-        if (!out)
-            return wf_fail(err, WEFT_FAILED, "this OpenImageIO writes no %s", picture->format);
-        const ImageSpec spec = describe_output(*picture);
-        const bool fine = file.descriptor >= 0 && out->open(file.name(), spec) &&
-                          write_pixels(*picture, *out);
-        if (!fine || !out->close())
-            return wf_fail(err, WEFT_FAILED, "a %s picture cannot be encoded: %s",
-                           picture->format, one_line(out->geterror()).c_str());
-        return hand_bytes(file, write, user, err);
+        Memory memory;
+        weft_status status = encode(*picture, memory, err);
+        return status ? status
+                      : write(user, memory.buffer().data(), memory.buffer().size(), err);
     });
 }

@@ -1,72 +1,100 @@
+/* The registry of outputs. */
 #include "convert/sink.h"
 
+#include <limits.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
 #include "convert/sequence.h"
+#include "convert/sink_kinds.h"
 
-extern const wf_sink_kind wf_sink_y4m, wf_sink_v210, wf_sink_uyvy, wf_sink_exr, wf_sink_dpx,
-    wf_sink_tiff, wf_sink_png, wf_sink_null, wf_sink_hash;
-
-static const wf_sink_kind *const kinds[] = {&wf_sink_y4m, &wf_sink_v210, &wf_sink_uyvy,
-                                            &wf_sink_exr, &wf_sink_dpx,  &wf_sink_tiff,
-                                            &wf_sink_png, &wf_sink_null, &wf_sink_hash};
+static const wf_sink_kind *const kinds[] = {
+    &wf_sink_y4m,  &wf_sink_v210, &wf_sink_uyvy, &wf_sink_exr,  &wf_sink_dpx,
+    &wf_sink_tiff, &wf_sink_png,  &wf_sink_hash, &wf_sink_null,
+};
 
 const wf_sink_kind *wf_sink_at(size_t index) {
     return index < sizeof kinds / sizeof *kinds ? kinds[index] : NULL;
 }
 
-/* Whether word is one of the blank-separated words. */
-static bool is_among(const char *words, const char *word, size_t length) {
-    while (*words) {
-        size_t next = strcspn(words, " ");
-        if (next == length && !strncasecmp(words, word, length)) return true;
-        words += next + (words[next] == ' ');
+/* ---- Names ---- */
+
+static bool is_scheme(const char *ending, size_t length) {
+    return ending[length - 1] == ':';
+}
+
+/* One of a kind's endings: "-" is a whole name, "hash:" begins one, "y4m" follows its last dot.
+ */
+static bool ends_so(const char *output, const char *ending, size_t length) {
+    if (is_scheme(ending, length)) return !strncmp(output, ending, length);
+    if (ending[0] == '-') return !strcmp(output, "-");
+    const char *slash = strrchr(output, '/'), *dot = strrchr(output, '.');
+    if (!dot || (slash && dot < slash)) return false;
+    return strlen(dot + 1) == length && !strncasecmp(dot + 1, ending, length);
+}
+
+static bool ends_as_one(const char *output, const char *endings, bool scheme) {
+    for (const char *word = endings; *word; word += strspn(word, " ")) {
+        size_t length = strcspn(word, " ");
+        if (is_scheme(word, length) == scheme && ends_so(output, word, length)) return true;
+        word += length;
     }
     return false;
 }
 
-/* "-", "hash:" of hash:FILE, or what follows the last dot of the name. */
-static const char *ending_of(const char *output, size_t *length) {
-    const char *slash = strrchr(output, '/'), *name = slash ? slash + 1 : output;
-    const char *colon = strchr(output, ':'), *dot = strrchr(name, '.');
-    if (!strcmp(output, "-"))
-        dot = NULL;
-    else if (colon && (is_among("null: hash:", output, (size_t)(colon - output) + 1))) {
-        *length = (size_t)(colon - output) + 1;
-        return output;
+/* "out.y4m, out.v210, .., out.####.exr, .., hash:FILE, null:" */
+static void list_outputs(char *text, size_t size) {
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && used < size; i++) {
+        const char *ending = kinds[i]->endings;
+        int length = (int)strcspn(ending, " ");
+        bool scheme = is_scheme(ending, (size_t)length);
+        used += (size_t)snprintf(text + used, size - used, "%s%s%.*s%s", used ? ", " : "",
+                                 scheme               ? ""
+                                 : kinds[i]->sequence ? "out.####."
+                                                      : "out.",
+                                 length, ending, kinds[i] == &wf_sink_hash ? "FILE" : "");
     }
-    const char *ending = dot ? dot + 1 : !strcmp(output, "-") ? output : "";
-    *length = strlen(ending);
-    return ending;
 }
 
 const wf_sink_kind *wf_sink_for(const char *output, weft_error *err) {
-    size_t length;
-    const char *ending = ending_of(output, &length);
-    for (size_t i = 0; length && i < sizeof kinds / sizeof *kinds; i++)
-        if (is_among(kinds[i]->endings, ending, length)) return kinds[i];
-    if (length && is_among("mov mxf mkv mp4 avi mpg", ending, length))
-        wf_fail(err, WEFT_USAGE,
-                "%s: this build writes no .%s; write .v210, .y4m or an image sequence such as "
-                "out.####.dpx and wrap it with another program",
-                output, ending);
-    else
+    char there[256];
+    for (int scheme = 1; scheme >= 0; scheme--) /* hash:out.exr is a hash */
+        for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+            if (ends_as_one(output, kinds[i]->endings, scheme)) return kinds[i];
+    if (ends_as_one(output, "mov mxf mkv mp4", false))
         wf_fail(
             err, WEFT_USAGE,
-            "%s: the output's name must end in .y4m, .v210 or .uyvy, or be a sequence such as "
-            "out.####.exr (dpx, tif, png), - for Y4M on standard output, null: or hash:FILE",
+            "%.500s: containers (.mov .mxf .mkv .mp4) are not built in yet; write Y4M and let "
+            "ffmpeg wrap it (weft convert .. -o - | ffmpeg -i - ..), or write out.v210 or "
+            "out.####.dpx",
             output);
+    else {
+        list_outputs(there, sizeof there);
+        wf_fail(
+            err, WEFT_USAGE,
+            "%.500s: the name of an output says what it is, and this one does not; there are "
+            "%s, and - for Y4M on standard output",
+            output, there);
+    }
     return NULL;
 }
 
+/* ---- What is there ---- */
+
 bool wf_sink_present(const wf_sink_kind *kind, const char *output, int64_t frame) {
-    char path[4096];
+    char path[PATH_MAX];
     struct stat about;
-    if (kind->sequence && frame >= 0 && wf_sequence_is_pattern(output)) {
-        if (!wf_sequence_output_path(output, frame, path, sizeof path)) return false;
+    size_t scheme = strcspn(kind->endings, ":");
+    if (!strcmp(output, "-")) return false;
+    if (kind->endings[scheme] == ':') output += scheme + 1; /* hash:FILE, and null: has none */
+    if (kind->sequence && wf_sequence_is_pattern(output)) {
+        if (frame < 0 || !wf_sequence_output_path(output, frame, path, sizeof path))
+            return false;
         output = path;
     }
+    /* Outputs appear whole or not at all; what is empty is what somebody else has left. */
     return !stat(output, &about) && S_ISREG(about.st_mode) && about.st_size > 0;
 }

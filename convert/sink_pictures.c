@@ -1,15 +1,18 @@
 /* Image sequences: a file a frame, encoded in memory by the OpenImageIO module, so that a full
  * disk or a broken pipe is seen where bytes are written, and a file is at its name whole or not
  * at all. */
+#include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "convert/module.h"
 #include "convert/oiio.h"
 #include "convert/outfile.h"
 #include "convert/sequence.h"
-#include "convert/sink.h"
+#include "convert/sink_kinds.h"
 #include "convert/timecode.h"
 
 struct wf_sink {
@@ -18,37 +21,81 @@ struct wf_sink {
     wf_oiio_write_fn *encode;
 };
 
+/* ---- Names ---- */
+
+static weft_status check_name(const wf_sink_options *o, weft_error *err) {
+    if (wf_sequence_is_pattern(o->output) || (o->frame_count <= 1 && !o->first_frame))
+        return WEFT_OK;
+    const char *dot = strrchr(o->output, '.');
+    return wf_fail(
+        err, WEFT_USAGE,
+        "%.500s: there are %" PRId64 " frames, and each is a file; say where its number "
+        "goes, such as %.*s.####%s",
+        o->output, o->frame_count, dot ? (int)(dot - o->output) : 0, o->output, dot ? dot : "");
+}
+
+static weft_status name_frame(const wf_sink_options *o, int64_t frame, char path[PATH_MAX],
+                              weft_error *err) {
+    bool fits = wf_sequence_is_pattern(o->output)
+                    ? wf_sequence_output_path(o->output, frame, path, PATH_MAX)
+                    : snprintf(path, PATH_MAX, "%s", o->output) < PATH_MAX;
+    if (fits) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%.500s: the name of frame %" PRId64 " is too long; shorten it", o->output,
+                   frame);
+}
+
+/* An hour's rendering is not to end at a file that was there before. */
+static weft_status check_absent(const wf_sink_options *o, weft_error *err) {
+    char path[PATH_MAX];
+    weft_status status = WEFT_OK;
+    for (int64_t i = 0; !status && i < o->frame_count; i++) {
+        struct stat about;
+        status = name_frame(o, o->first_frame + i, path, err);
+        if (status || o->overwrite || o->resume || lstat(path, &about)) continue;
+        if (S_ISREG(about.st_mode))
+            status =
+                wf_fail(err, WEFT_FAILED,
+                        "%.700s exists; give --overwrite to replace it, or --resume to write "
+                        "the frames that are not there",
+                        path);
+    }
+    return status;
+}
+
+/* ---- Opening and writing ---- */
+
 static weft_status open_pictures(const wf_sink_options *options, const char *format,
                                  wf_sink **out, weft_error *err) {
-    bool pattern = wf_sequence_is_pattern(options->output);
-    if (!pattern && (options->frame_count > 1 || options->first_frame > 0))
-        return wf_fail(
-            err, WEFT_USAGE,
-            "%s: %lld frames need a name each; put #### where the number goes, as in "
-            "out.####.%s",
-            options->output, (long long)options->frame_count,
-            strrchr(options->output, '.') + 1);
+    void *symbol;
+    weft_status status = check_name(options, err);
+    if (!status) status = check_absent(options, err);
+    if (!status) status = wf_module_symbol("oiio", "wf_oiio_write", &symbol, err);
+    if (status) return status;
     wf_sink *s = calloc(1, sizeof *s);
     if (!s)
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the sequence", options->output);
+        return wf_fail(err, WEFT_NO_MEMORY, "%.500s: no memory for the sequence",
+                       options->output);
     *s = (wf_sink){.options = *options, .format = format};
-    void *symbol;
-    weft_status status = wf_module_symbol("oiio", "wf_oiio_write", &symbol, err);
-    if (status) {
-        free(s);
-        return status;
-    }
     memcpy(&s->encode, &symbol, sizeof symbol);
     *out = s;
     return WEFT_OK;
 }
 
+/* Errors of the file name it; those of the encoder do not know it. */
+typedef struct encoded {
+    wf_outfile *file;
+    bool said;
+} encoded;
+
 static weft_status put_bytes(void *user, const void *data, size_t bytes, weft_error *err) {
-    return wf_outfile_write(user, data, bytes, err);
+    encoded *e = user;
+    weft_status status = wf_outfile_write(e->file, data, bytes, err);
+    e->said = status != WEFT_OK;
+    return status;
 }
 
-static void frame_timecode(const wf_sink_options *o, int64_t index,
-                           char text[WF_TIMECODE_SIZE]) {
+static void label_frame(const wf_sink_options *o, int64_t index, char text[WF_TIMECODE_SIZE]) {
     wf_timecode start;
     *text = '\0';
     if (!o->timecode || !wf_parse_timecode(o->timecode, &start)) return;
@@ -59,34 +106,38 @@ static void frame_timecode(const wf_sink_options *o, int64_t index,
 static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const char *path,
                               weft_error *err) {
     wf_outfile *file;
-    weft_status status = wf_outfile_open(path, s->options.overwrite, &file, err);
+    weft_error why = {""};
+    /* What a job to be resumed has found there was not a whole picture. */
+    bool replace = s->options.overwrite || s->options.resume;
+    weft_status status = wf_outfile_open(path, replace, &file, err);
     if (status) return status;
-    status = s->encode(picture, put_bytes, file, err);
+    encoded e = {file, false};
+    status = s->encode(picture, put_bytes, &e, &why);
     if (!status) return wf_outfile_commit(file, err);
     wf_outfile_abandon(file);
-    return status;
+    return e.said ? wf_fail(err, status, "%s", why.text)
+                  : wf_fail(err, status, "%.600s: %.400s", path, why.text);
 }
 
 static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *err) {
     const wf_sink_options *o = &s->options;
-    char path[4096], timecode[WF_TIMECODE_SIZE];
-    if (!wf_sequence_is_pattern(o->output))
-        snprintf(path, sizeof path, "%s", o->output);
-    else if (!wf_sequence_output_path(o->output, frame->index, path, sizeof path))
-        return wf_fail(err, WEFT_FAILED, "%s: the name of frame %lld is too long", o->output,
-                       (long long)frame->index);
-    frame_timecode(o, frame->index, timecode);
-    wf_oiio_picture picture = {.format = s->format,
-                               .width_px = o->raster->width_px,
-                               .lines = o->raster->lines,
-                               .bits = o->bits,
-                               .pixel_aspect = wf_ratio_value(o->raster->pixel_aspect),
-                               .frame_rate = o->raster->frame_rate,
-                               .interlaced = o->raster->scan == WF_INTERLACED,
-                               .top_first = o->raster->top_first,
-                               .timecode = timecode,
-                               .color_space = o->color_space,
-                               .raster = o->raster->name};
+    char path[PATH_MAX], timecode[WF_TIMECODE_SIZE];
+    weft_status status = name_frame(o, frame->index, path, err);
+    if (status) return status;
+    label_frame(o, frame->index, timecode);
+    wf_oiio_picture picture = {
+        .format = s->format,
+        .width_px = o->raster->width_px,
+        .lines = o->raster->lines,
+        .bits = o->bits,
+        .pixel_aspect = wf_ratio_value(o->raster->pixel_aspect),
+        .frame_rate = o->raster->frame_rate,
+        .interlaced = o->raster->scan == WF_INTERLACED,
+        .top_first = o->raster->top_first,
+        .timecode = timecode,
+        .color_space = o->color_space ? o->color_space : "",
+        .raster = o->raster->name,
+    };
     for (int c = 0; c < 3; c++) {
         picture.plane[c] = frame->plane[c];
         picture.line_stride[c] = frame->stride[c];
@@ -117,8 +168,6 @@ PICTURES(png, "png")
 
 #define BITS(n) (1u << (n))
 
-extern const wf_sink_kind wf_sink_exr, wf_sink_dpx, wf_sink_tiff, wf_sink_png;
-
 const wf_sink_kind wf_sink_exr = {.name = "OpenEXR",
                                   .endings = "exr",
                                   .help =
@@ -137,7 +186,7 @@ const wf_sink_kind wf_sink_dpx = {.name = "DPX",
                                   .endings = "dpx",
                                   .help = "R'G'B' with interlace elements and time code",
                                   .layout = WF_RGB,
-                                  .bits_mask = BITS(8) | BITS(10) | BITS(16),
+                                  .bits_mask = BITS(8) | BITS(10) | BITS(12) | BITS(16),
                                   .default_bits = 10,
                                   .full_range = true,
                                   .sequence = true,
@@ -166,7 +215,7 @@ const wf_sink_kind wf_sink_png = {.name = "PNG",
                                   .help = "R'G'B'",
                                   .layout = WF_RGB,
                                   .bits_mask = BITS(8) | BITS(16),
-                                  .default_bits = 8,
+                                  .default_bits = 16,
                                   .full_range = true,
                                   .sequence = true,
                                   .joins = true,

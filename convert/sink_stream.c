@@ -7,7 +7,7 @@
 #include <xxhash.h>
 
 #include "convert/outfile.h"
-#include "convert/sink.h"
+#include "convert/sink_kinds.h"
 
 typedef struct stream_format {
     /* Text before the first frame; its length, 0: none. */
@@ -66,8 +66,9 @@ static weft_status open_stream(const wf_sink_options *options, const stream_form
     s->options = *options;
     s->format = format;
     weft_status status = WEFT_OK;
-    if (!format->silent)
-        status = wf_outfile_open(file_of(s), options->overwrite, &s->file, err);
+    /* A job to be resumed comes here when what stands at the name is not a whole output. */
+    bool replace = options->overwrite || options->resume;
+    if (!format->silent) status = wf_outfile_open(file_of(s), replace, &s->file, err);
     if (!status && !format->silent) status = write_header(s, err);
     if (!status) {
         *out = s;
@@ -162,26 +163,36 @@ static void put_word(uint8_t *to, unsigned a, unsigned b, unsigned c) {
     for (int i = 0; i < 4; i++) to[i] = (uint8_t)(word >> 8 * i);
 }
 
-/* Six pixels from x on; those past the end of the line repeat nothing: they are 0. */
-static void put_six(uint8_t *to, const uint16_t *y, const uint16_t *cb, const uint16_t *cr,
-                    int left) {
-    unsigned l[6] = {0}, b[3] = {0}, r[3] = {0};
-    for (int i = 0; i < 6 && i < left; i++) l[i] = y[i];
-    for (int i = 0; i < 3 && 2 * i < left; i++) b[i] = cb[i], r[i] = cr[i];
-    put_word(to, b[0], l[0], r[0]);
-    put_word(to + 4, l[1], b[1], l[2]);
-    put_word(to + 8, r[1], l[3], b[2]);
-    put_word(to + 12, l[4], r[2], l[5]);
+static void put_six(uint8_t *to, const uint16_t *y, const uint16_t *cb, const uint16_t *cr) {
+    put_word(to, cb[0], y[0], cr[0]);
+    put_word(to + 4, y[1], cb[1], y[2]);
+    put_word(to + 8, cr[1], y[3], cb[2]);
+    put_word(to + 12, y[4], cr[2], y[5]);
+}
+
+/* The last pixels of a line that six does not divide; what is missing is 0. */
+static void put_rest(uint8_t *to, const uint16_t *y, const uint16_t *cb, const uint16_t *cr,
+                     int count) {
+    uint16_t l[6] = {0}, b[3] = {0}, r[3] = {0};
+    memcpy(l, y, (size_t)count * sizeof *l);
+    memcpy(b, cb, (size_t)count / 2 * sizeof *b);
+    memcpy(r, cr, (size_t)count / 2 * sizeof *r);
+    put_six(to, l, b, r);
 }
 
 static size_t v210_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
     size_t line_bytes = v210_line_bytes(o);
-    memset(to, 0, v210_frame_bytes(o));
+    int width = o->raster->width_px, whole = width / 6 * 6;
     for (int j = 0; j < o->raster->lines; j++, to += line_bytes) {
         const uint16_t *y = line_of(frame, 0, j), *cb = line_of(frame, 1, j),
                        *cr = line_of(frame, 2, j);
-        for (int x = 0; x < o->raster->width_px; x += 6)
-            put_six(to + x / 6 * 16, y + x, cb + x / 2, cr + x / 2, o->raster->width_px - x);
+        size_t used = ((size_t)width + 5) / 6 * 16;
+        for (int x = 0; x < whole; x += 6)
+            put_six(to + x / 6 * 16, y + x, cb + x / 2, cr + x / 2);
+        if (whole < width)
+            put_rest(to + whole / 6 * 16, y + whole, cb + whole / 2, cr + whole / 2,
+                     width - whole);
+        memset(to + used, 0, line_bytes - used);
     }
     return v210_frame_bytes(o);
 }
@@ -224,7 +235,9 @@ static size_t hash_frame_bytes(const wf_sink_options *o) {
     return HASH_LINE_BYTES + y4m_frame_bytes(o);
 }
 
-/* One line a frame: its number and the XXH3-128 of its codes, as Y4M orders them. */
+/* One line a frame: its number and the XXH3-128 of its codes in the bytes and the order of Y4M.
+ * No line is about the run, so that the parts of one, joined, are what the whole would have
+ * been; the hash of the file is the hash of all. */
 static size_t hash_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
     uint8_t *codes = to + HASH_LINE_BYTES;
     size_t bytes = y4m_pack(o, frame, codes);
@@ -250,8 +263,6 @@ STREAM(null, {.frame_bytes = nothing_bytes, .pack = nothing, .silent = true})
 STREAM(hash, {.frame_bytes = hash_frame_bytes, .pack = hash_pack, .prefix = "hash:"})
 
 #define BITS(n) (1u << (n))
-
-extern const wf_sink_kind wf_sink_y4m, wf_sink_v210, wf_sink_uyvy, wf_sink_null, wf_sink_hash;
 
 const wf_sink_kind wf_sink_y4m = {
     .name = "Y4M",

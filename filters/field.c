@@ -304,20 +304,58 @@ static void add_term(wf_field *f, const wf_term *term, const wf_band_input *inpu
         add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
 }
 
+/* Whether the term's row is all there, as it is to be. */
+static bool row_is_whole(const wf_resampler *rs, const wf_term *term,
+                         const wf_band_input *input, double weight) {
+    return weight == 1 && input->channels == rs->desc.channels && !padded(rs) &&
+           has_samples(rs, term, input) && input->here.x0 <= rs->columns.first &&
+           input->here.x1 >= rs->columns.end;
+}
+
+static void copy_row(wf_field *f, const wf_term *term, const wf_band_input *input) {
+    const wf_resampler *rs = f->rs;
+    float *done = f->done + (size_t)term->sum * wf_done_samples(rs);
+    size_t lanes = (size_t)rs->lanes, length = (size_t)rs->lane_length,
+           count = wf_columns_of(rs);
+    size_t skipped = (size_t)(term->row - input->here.y0) * input->line_stride +
+                     (size_t)(rs->columns.first - input->here.x0);
+    for (int c = 0; c < rs->desc.channels; c++, done += wf_row_samples(rs)) {
+        const char *pixel = (const char *)input->plane[c] + skipped * sample_bytes(input);
+        if (input->half)
+            rs->ops->split_half(done, (const uint16_t *)(const void *)pixel, lanes, length,
+                                count);
+        else
+            rs->ops->split_float(done, (const float *)(const void *)pixel, lanes, length,
+                                 count);
+    }
+}
+
+/* A sum that one picture makes: straight from it, or where it has holes by way of the scratch
+ * row. */
+static void make_sum(wf_field *f, const wf_term *term, const wf_band_input *input,
+                     double weight, double *sum) {
+    if (row_is_whole(f->rs, term, input, weight)) {
+        count_weight(f, term, input, weight);
+        copy_row(f, term, input);
+        return;
+    }
+    memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
+    add_term(f, term, input, weight, sum);
+    finish_sums(f, term->sum, 1, sum);
+}
+
 void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
     const wf_band *b = &f->plan->bands[band];
-    bool once = at_once(f);
+    double *sums = slot_sums(s, slot);
     for (int t = b->terms.first; t < b->terms.end; t++) {
         const wf_term *term = &f->plan->terms[t];
         double weight = weight_of_all(f, term, input);
+        size_t place = (size_t)(term->sum - b->sums.first) * wf_sum_samples(f->rs);
         if (weight == 0) continue;
-        double *sum = slot_sums(s, slot);
-        if (once)
-            memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
+        if (at_once(f))
+            make_sum(f, term, input, weight, sums);
         else
-            sum += (size_t)(term->sum - b->sums.first) * wf_sum_samples(f->rs);
-        add_term(f, term, input, weight, sum);
-        if (once) finish_sums(f, term->sum, 1, sum);
+            add_term(f, term, input, weight, sums + place);
     }
 }
 

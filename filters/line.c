@@ -99,21 +99,36 @@ static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
     add_totals(f, taps, kernel, s);
 }
 
-/* Divides by the weight of what exists; what is neither covered by the input nor opaque shows
- * the background. */
-static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
-    size_t samples = (size_t)rs->phases * wf_run_length(rs);
+/* Shares of the background: what is neither covered by the input nor opaque. exists holds
+ * reciprocals. */
+static void add_background(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
+    size_t run = wf_run_length(rs), samples = (size_t)rs->phases * run;
     for (int i = 0; i < rs->x.pixels; i++) {
-        size_t at = (size_t)(i % rs->phases) * wf_run_length(rs) + (size_t)(i / rs->phases);
-        double share = 1 / s->exists[i];
+        size_t at = (size_t)(i % rs->phases) * run + (size_t)(i / rs->phases);
         double alpha = rs->desc.channels == 4 ? s->picture[3 * samples + at] : s->inside[i];
-        double clear = 1 - alpha * share;
+        double clear = 1 - alpha * s->exists[i];
         for (int c = 0; c < 3; c++) {
-            double light = s->picture[(size_t)c * samples + at] * share;
-            if (rs->desc.background[c] != 0) light += clear * (double)rs->desc.background[c];
-            rgb[c][i] = (float)light;
+            double light = s->picture[(size_t)c * samples + at] * s->exists[i];
+            rgb[c][i] = (float)(light + clear * (double)rs->desc.background[c]);
         }
     }
+}
+
+/* Divides by the weight of what exists, and brings the phases together. */
+static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
+    const float *background = rs->desc.background;
+    size_t run = wf_run_length(rs), phases = (size_t)rs->phases, width = (size_t)rs->x.pixels;
+    for (size_t i = 0; i < width; i++) s->exists[i] = 1 / s->exists[i];
+    if (background[0] != 0 || background[1] != 0 || background[2] != 0) {
+        add_background(rs, s, rgb);
+        return;
+    }
+    for (size_t c = 0; c < 3; c++)
+        for (size_t r = 0; r < phases; r++) {
+            const double *light = s->picture + (c * phases + r) * run;
+            for (size_t i = r, m = 0; i < width; i += phases, m++)
+                rgb[c][i] = (float)(light[m] * s->exists[i]);
+        }
 }
 
 void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[3]) {

@@ -4,7 +4,8 @@
 
 build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libopenimageio-dev
                 libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev)
-test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3)
+test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
+               openimageio-tools)
 
 # Prints those of the packages named that are not installed.
 missing_packages()
