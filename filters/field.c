@@ -304,52 +304,10 @@ static void add_term(wf_field *f, const wf_term *term, const wf_band_input *inpu
         add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
 }
 
-/* Whether the term's sum is the picture's row, with zeros beside it. */
-static bool row_is_sum(const wf_resampler *rs, const wf_term *term, const wf_band_input *input,
-                       double weight) {
-    return weight == 1 && input->channels == rs->desc.channels && !padded(rs) &&
-           has_samples(rs, term, input);
-}
-
-/* One channel of the row over all the columns reached, zeros where there are no samples. */
-static const void *widened(const wf_resampler *rs, const wf_term *term,
-                           const wf_band_input *input, int channel, void *room) {
-    size_t bytes = sample_bytes(input), all = wf_columns_of(rs);
-    wf_span columns = meet(rs->columns, (wf_span){input->here.x0, input->here.x1});
-    size_t before = (size_t)(columns.first - rs->columns.first);
-    size_t count = (size_t)(columns.end - columns.first);
-    size_t skipped = (size_t)(term->row - input->here.y0) * input->line_stride +
-                     (size_t)(columns.first - input->here.x0);
-    char *row = room;
-    memset(row, 0, before * bytes);
-    memcpy(row + before * bytes, (const char *)input->plane[channel] + skipped * bytes,
-           count * bytes);
-    memset(row + (before + count) * bytes, 0, (all - before - count) * bytes);
-    return row;
-}
-
-static void copy_row(wf_field *f, const wf_term *term, const wf_band_input *input, void *room) {
-    const wf_resampler *rs = f->rs;
-    float *done = f->done + (size_t)term->sum * wf_done_samples(rs);
-    size_t lanes = (size_t)rs->lanes, length = (size_t)rs->lane_length;
-    for (int c = 0; c < rs->desc.channels; c++, done += wf_row_samples(rs)) {
-        const void *row = widened(rs, term, input, c, room);
-        if (input->half)
-            rs->ops->split_half(done, row, lanes, length, wf_columns_of(rs));
-        else
-            rs->ops->split_float(done, row, lanes, length, wf_columns_of(rs));
-    }
-}
-
 /* A sum that one picture makes: straight from it, or where it has holes by way of the scratch
  * row. */
 static void make_sum(wf_field *f, const wf_term *term, const wf_band_input *input,
                      double weight, double *sum) {
-    if (row_is_sum(f->rs, term, input, weight)) {
-        count_weight(f, term, input, weight);
-        copy_row(f, term, input, sum);
-        return;
-    }
     memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
     add_term(f, term, input, weight, sum);
     finish_sums(f, term->sum, 1, sum);

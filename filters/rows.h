@@ -22,11 +22,6 @@ typedef struct wf_row_ops {
      * and 0 in what remains of the lanes */
     void (*split)(float *lane, const double *row, size_t lanes, size_t lane_length,
                   size_t count);
-    /* split of halves and of floats as they are: what adding them once, with weight 1, gives */
-    void (*split_half)(float *lane, const uint16_t *pixel, size_t lanes, size_t lane_length,
-                       size_t count);
-    void (*split_float)(float *lane, const float *pixel, size_t lanes, size_t lane_length,
-                        size_t count);
 } wf_row_ops;
 
 /* The tables by index, slowest first; NULL past the last one this processor can run. */

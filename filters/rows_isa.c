@@ -90,46 +90,6 @@ static void split(float *restrict lane, const double *restrict row, size_t lanes
     }
 }
 
-/* Even and odd pixels of a row of halves: the usual two samples a pixel. */
-static size_t split_pairs(float *even, float *odd, const uint16_t *pixel, size_t count) {
-    size_t i = 0;
-#if defined(__AVX512F__)
-    const __m512i low =
-        _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(1));
-    for (; i + 32 <= count; i += 32) {
-        __m512 a = _mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)(pixel + i)));
-        __m512 b = _mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)(pixel + i + 16)));
-        _mm512_storeu_ps(even + i / 2, _mm512_permutex2var_ps(a, low, b));
-        _mm512_storeu_ps(odd + i / 2, _mm512_permutex2var_ps(a, high, b));
-    }
-#else
-    (void)even, (void)odd, (void)pixel, (void)count;
-#endif
-    return i;
-}
-
-static void split_half(float *restrict lane, const uint16_t *restrict pixel, size_t lanes,
-                       size_t lane_length, size_t count) {
-    size_t done = lanes == 2 ? split_pairs(lane, lane + lane_length, pixel, count) : 0;
-    for (size_t z = 0; z < lanes; z++) {
-        float *out = lane + z * lane_length;
-        size_t m = done / lanes;
-        for (size_t i = lanes * m + z; i < count; i += lanes) out[m++] = half_value(pixel[i]);
-        for (; m < lane_length; m++) out[m] = 0;
-    }
-}
-
-static void split_float(float *restrict lane, const float *restrict pixel, size_t lanes,
-                        size_t lane_length, size_t count) {
-    for (size_t z = 0; z < lanes; z++) {
-        float *out = lane + z * lane_length;
-        size_t m = 0;
-        for (size_t i = z; i < count; i += lanes) out[m++] = pixel[i];
-        for (; m < lane_length; m++) out[m] = 0;
-    }
-}
-
 const wf_row_ops JOIN(wf_row_ops_, WF_ISA);
 const wf_row_ops JOIN(wf_row_ops_, WF_ISA) = {
     .name = TEXT(WF_ISA),
@@ -139,6 +99,4 @@ const wf_row_ops JOIN(wf_row_ops_, WF_ISA) = {
     .add_row = add_row,
     .add_tap = add_tap,
     .split = split,
-    .split_half = split_half,
-    .split_float = split_float,
 };
