@@ -304,8 +304,7 @@ static void add_term(wf_field *f, const wf_term *term, const wf_band_input *inpu
         add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
 }
 
-/* A sum that one picture makes: straight from it, or where it has holes by way of the scratch
- * row. */
+/* A sum that one picture makes, by way of the scratch row. */
 static void make_sum(wf_field *f, const wf_term *term, const wf_band_input *input,
                      double weight, double *sum) {
     memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
