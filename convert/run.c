@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "convert/collide.h"
 #include "convert/pipeline.h"
 #include "convert/report.h"
 
@@ -135,14 +136,23 @@ static void write_report(weft_job *job, const wf_setup *s, const wf_pipeline *p,
     free(missing);
 }
 
+static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
+    if (!pixels) return;
+    *degraded = true;
+    wf_job_warn(job, "%lld pixels of the input were NaN or infinite: %s", (long long)pixels,
+                job->nan_fix == WF_NAN_BLACK ? "they are black"
+                                             : "they are the means of their neighbours");
+}
+
 static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, bool *degraded,
                              weft_error *err) {
     if (job->resume && !s->sink->sequence && wf_sink_present(s->sink, job->output, -1))
         return WEFT_OK;
-    weft_status status = face_missing(job, s, degraded, err);
+    weft_status status = wf_refuse_own_inputs(job, s, err);
+    if (!status) status = face_missing(job, s, degraded, err);
     if (!status) status = wf_pipeline_new(job, s, p, err);
     if (!status) status = run_with_sink(*p, err);
-    if (!status && wf_pipeline_counts(*p).nan_fixed) *degraded = true;
+    if (!status) tell_mended(job, wf_pipeline_counts(*p).nan_fixed, degraded);
     return status;
 }
 

@@ -543,6 +543,23 @@ static void faults_are_named(void **state) {
     assert_int_not_equal(access(path, F_OK), 0);
 }
 
+static void inputs_are_safe(void **state) {
+    (void)state;
+    char command[1300];
+    movie m = plain_movie(32, 24, 16);
+    write_movie(&m, "120", EXR_COMPRESSION_ZIP, 0);
+    snprintf(command, sizeof command,
+             "cd %s && ln in.1003.exr out.0002.exr && cp in.1001.exr saved", job_directory);
+    assert_int_equal(system(command), 0);
+    job_refused("raster=32x24@30i,tff overwrite", "out.####.exr", WEFT_USAGE, "out.0002.exr");
+    job_refused("raster=32x24@30i,tff overwrite frames=1001-1008", "in.1001.exr", WEFT_USAGE,
+                "in.1001.exr");
+    size_t size;
+    uint8_t *saved = job_file("saved", &size);
+    job_same("in.1001.exr", saved, size);
+    free(saved);
+}
+
 static void identical_pictures_cost_nothing(void **state) {
     (void)state;
     char command[1300], report[JOB_REPORT];
@@ -616,6 +633,7 @@ int main(void) {
         cmocka_unit_test(missing_subframes),
         cmocka_unit_test(black_where_missing),
         cmocka_unit_test(faults_are_named),
+        cmocka_unit_test(inputs_are_safe),
         cmocka_unit_test(identical_pictures_cost_nothing),
         cmocka_unit_test(resumed_sequences_are_whole),
         cmocka_unit_test(cancelled_jobs_leave_nothing),
