@@ -103,6 +103,8 @@ weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes,
     struct iovec pieces[2] = {{file->buffer, file->used}, {(void *)(uintptr_t)data, bytes}};
     file->used = 0;
     int code = write_pieces(file->fd, pieces, 2);
+    /* The disk may begin at once, so that the sync at the end has little left to wait for. */
+    if (file->named) sync_file_range(file->fd, 0, 0, SYNC_FILE_RANGE_WRITE);
     return code ? stick(file, code, "cannot be written", err) : WEFT_OK;
 }
 
