@@ -17,16 +17,18 @@ size_t wf_resampler_field_bytes(const wf_resampler *rs, bool carried) {
 
 /* ---- Scratch ---- */
 
-static size_t slot_samples(const wf_resampler *rs) {
+/* Sums of the band that has most. */
+static size_t slot_sum_count(const wf_resampler *rs) {
     int top = rs->plan[0].most_sums, bottom = rs->plan[1].most_sums;
-    return (size_t)(top > bottom ? top : bottom) * wf_sum_samples(rs);
+    return (size_t)(top > bottom ? top : bottom);
 }
 
 size_t wf_scratch_bytes(const wf_resampler *rs, int fields_in_flight) {
     size_t width = (size_t)rs->x.pixels,
            kernel = (size_t)rs->phases * (size_t)rs->taps + 2 * width;
     return sizeof(double) *
-           ((size_t)fields_in_flight * slot_samples(rs) + wf_row_samples(rs) + kernel +
+           ((size_t)fields_in_flight * slot_sum_count(rs) * wf_sum_samples(rs) +
+            wf_row_samples(rs) + kernel +
             (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) + 2 * width);
 }
 
@@ -35,13 +37,16 @@ wf_scratch *wf_scratch_new(const wf_resampler *rs, int fields_in_flight) {
     if (!s) return NULL;
     size_t width = (size_t)rs->x.pixels;
     s->rs = rs;
-    s->slot_samples = slot_samples(rs);
+    s->slot_sums = slot_sum_count(rs);
+    s->slot_samples = s->slot_sums * wf_sum_samples(rs);
     s->sums = malloc((size_t)fields_in_flight * s->slot_samples * sizeof *s->sums);
+    s->live = calloc((size_t)fields_in_flight * s->slot_sums, sizeof *s->live);
     s->row = malloc(wf_row_samples(rs) * sizeof *s->row);
     s->picture = malloc((size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) *
                         sizeof *s->picture);
     s->inside = malloc(2 * width * sizeof *s->inside);
-    if (!s->sums || !s->row || !s->picture || !s->inside || !wf_kernel_alloc(rs, &s->kernel)) {
+    if (!s->sums || !s->live || !s->row || !s->picture || !s->inside ||
+        !wf_kernel_alloc(rs, &s->kernel)) {
         wf_scratch_free(s);
         return NULL;
     }
@@ -52,6 +57,7 @@ wf_scratch *wf_scratch_new(const wf_resampler *rs, int fields_in_flight) {
 void wf_scratch_free(wf_scratch *s) {
     if (!s) return;
     free(s->sums);
+    free(s->live);
     free(s->row);
     free(s->picture);
     free(s->inside);
@@ -107,6 +113,7 @@ bool wf_field_renew(wf_field *f, int64_t index) {
         atomic_init(&f->bands_left[l], f->plan->line_bands[l]);
     fill_moments(f);
     memset(f->inside, 0, 2 * most_sums(rs) * sizeof *f->inside);
+    memset(f->touched, 0, most_sums(rs) * sizeof *f->touched);
     return true;
 }
 
@@ -115,7 +122,8 @@ wf_field *wf_field_new(const wf_resampler *rs, int64_t index) {
     if (!f) return NULL;
     f->rs = rs;
     f->inside = malloc(2 * most_sums(rs) * sizeof *f->inside);
-    if (!f->inside || !wf_field_renew(f, index)) {
+    f->touched = malloc(most_sums(rs) * sizeof *f->touched);
+    if (!f->inside || !f->touched || !wf_field_renew(f, index)) {
         wf_field_free(f);
         return NULL;
     }
@@ -128,6 +136,7 @@ void wf_field_free(wf_field *f) {
     free(f->moments);
     free(f->bands_left);
     free(f->inside);
+    free(f->touched);
     free(f->done);
     free(f->carry);
     free(f->overscan);
@@ -164,28 +173,20 @@ bool wf_field_complete(const wf_field *f) {
 
 /* ---- Adding up ---- */
 
-static double *slot_sums(wf_scratch *s, int slot) {
-    return s->sums + (size_t)slot * s->slot_samples;
-}
-
-static size_t band_samples(const wf_field *f, const wf_band *band) {
-    return (size_t)(band->sums.end - band->sums.first) * wf_sum_samples(f->rs);
-}
-
-/* A sum that one picture makes goes to its place at once, while it is in the nearest cache. */
-static bool at_once(const wf_field *f) {
-    return f->rs->sums_by_row && f->window.alone && f->last && !f->carried;
+static double *slot_sum(wf_scratch *s, int slot, int sum) {
+    return s->sums + (size_t)slot * s->slot_samples + (size_t)sum * wf_sum_samples(s->rs);
 }
 
 void wf_band_open(const wf_field *f, int band, wf_scratch *s, int slot) {
     const wf_band *b = &f->plan->bands[band];
-    size_t bytes = band_samples(f, b) * sizeof(double);
-    const size_t from = (size_t)b->sums.first * wf_sum_samples(f->rs);
-    if (at_once(f)) return;
-    if (f->carried)
-        memcpy(slot_sums(s, slot), f->carry + from, bytes);
-    else
-        memset(slot_sums(s, slot), 0, bytes);
+    size_t samples = wf_sum_samples(f->rs);
+    bool *live = s->live + (size_t)slot * s->slot_sums;
+    for (int sum = b->sums.first; sum < b->sums.end; sum++, live++) {
+        *live = f->carried && f->touched[sum];
+        if (*live)
+            memcpy(slot_sum(s, slot, sum - b->sums.first), f->carry + (size_t)sum * samples,
+                   samples * sizeof *f->carry);
+    }
 }
 
 /* The weight of a row at subframe k. */
@@ -287,55 +288,57 @@ static bool has_samples(const wf_resampler *rs, const wf_term *term,
            input->here.x1 > rs->columns.first && input->here.x0 < rs->columns.end;
 }
 
-static void finish_sums(wf_field *f, int first, int count, const double *sum) {
-    const wf_resampler *rs = f->rs;
-    float *done = f->done + (size_t)first * wf_done_samples(rs);
-    for (size_t r = 0; r < (size_t)count * (size_t)rs->desc.channels; r++)
-        rs->ops->split(done + r * wf_row_samples(rs), sum + r * wf_columns_of(rs),
-                       (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
+/* The sum, zeros at first. It begins when something is added, so that what no picture shows
+ * costs nothing. */
+static double *begun_sum(const wf_resampler *rs, wf_scratch *s, int slot, int sum) {
+    double *begun = slot_sum(s, slot, sum);
+    bool *live = &s->live[(size_t)slot * s->slot_sums + (size_t)sum];
+    if (!*live) memset(begun, 0, wf_sum_samples(rs) * sizeof *begun);
+    *live = true;
+    return begun;
 }
 
 static void add_term(wf_field *f, const wf_term *term, const wf_band_input *input,
-                     double weight, double *sum) {
+                     double weight, int sum, wf_scratch *s, int slot) {
     const wf_resampler *rs = f->rs;
+    bool opaque = rs->desc.channels == 4 && input->channels < 4;
     count_weight(f, term, input, weight);
-    if (has_samples(rs, term, input)) add_samples(f, term, input, weight, sum);
-    if (rs->desc.channels == 4 && input->channels < 4) /* opaque */
-        add_where_samples_exist(rs, term, input, weight, sum + 3 * wf_columns_of(rs));
-}
-
-/* A sum that one picture makes, by way of the scratch row. */
-static void make_sum(wf_field *f, const wf_term *term, const wf_band_input *input,
-                     double weight, double *sum) {
-    memset(sum, 0, wf_sum_samples(f->rs) * sizeof *sum);
-    add_term(f, term, input, weight, sum);
-    finish_sums(f, term->sum, 1, sum);
+    if (!opaque && !has_samples(rs, term, input)) return;
+    double *to = begun_sum(rs, s, slot, sum);
+    if (has_samples(rs, term, input)) add_samples(f, term, input, weight, to);
+    if (opaque) add_where_samples_exist(rs, term, input, weight, to + 3 * wf_columns_of(rs));
 }
 
 void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
     const wf_band *b = &f->plan->bands[band];
-    double *sums = slot_sums(s, slot);
     for (int t = b->terms.first; t < b->terms.end; t++) {
         const wf_term *term = &f->plan->terms[t];
         double weight = weight_of_all(f, term, input);
-        size_t place = (size_t)(term->sum - b->sums.first) * wf_sum_samples(f->rs);
-        if (weight == 0) continue;
-        if (at_once(f))
-            make_sum(f, term, input, weight, sums);
-        else
-            add_term(f, term, input, weight, sums + place);
+        if (weight != 0) add_term(f, term, input, weight, term->sum - b->sums.first, s, slot);
     }
+}
+
+static void finish_sum(wf_field *f, int sum, const double *from) {
+    const wf_resampler *rs = f->rs;
+    float *done = f->done + (size_t)sum * wf_done_samples(rs);
+    for (size_t c = 0; c < (size_t)rs->desc.channels; c++)
+        rs->ops->split(done + c * wf_row_samples(rs), from + c * wf_columns_of(rs),
+                       (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
 }
 
 void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
     const wf_band *b = &f->plan->bands[band];
-    const double *sum = slot_sums(s, slot);
-    if (at_once(f)) return;
-    if (f->last)
-        finish_sums(f, b->sums.first, b->sums.end - b->sums.first, sum);
-    else
-        memcpy(f->carry + (size_t)b->sums.first * wf_sum_samples(f->rs), sum,
-               band_samples(f, b) * sizeof *sum);
+    size_t samples = wf_sum_samples(f->rs);
+    const bool *live = s->live + (size_t)slot * s->slot_sums;
+    for (int sum = b->sums.first; sum < b->sums.end; sum++) {
+        const double *from = slot_sum(s, slot, sum - b->sums.first);
+        f->touched[sum] = *live++;
+        if (!f->touched[sum]) continue;
+        if (f->last)
+            finish_sum(f, sum, from);
+        else
+            memcpy(f->carry + (size_t)sum * samples, from, samples * sizeof *from);
+    }
 }
 
 wf_span wf_band_lines(const wf_field *f, int band) {

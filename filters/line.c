@@ -7,15 +7,24 @@ static const float *done_row(const wf_field *f, int tap, int channel) {
            (size_t)channel * wf_row_samples(f->rs);
 }
 
-/* One channel of the sums of some taps: all of them go through the same kernel. */
-static void add_up(const wf_field *f, wf_span taps, int channel, double *row) {
+/* One channel of the sums of some taps: all of them go through the same kernel. False if no
+ * sample was added to any. */
+static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
     const wf_resampler *rs = f->rs;
-    size_t samples = wf_row_samples(rs);
-    bool pair = taps.end - taps.first > 1;
-    rs->ops->set_rows(row, done_row(f, taps.first, channel),
-                      pair ? done_row(f, taps.first + 1, channel) : NULL, samples);
-    for (int t = taps.first + 2; t < taps.end; t++)
-        rs->ops->add_row(row, done_row(f, t, channel), samples);
+    const float *first = NULL;
+    int found = 0;
+    for (int t = taps.first; t < taps.end; t++) {
+        if (!f->touched[f->plan->taps[t].sum]) continue;
+        const float *sum = done_row(f, t, channel);
+        if (++found == 1)
+            first = sum;
+        else if (found == 2)
+            rs->ops->set_rows(row, first, sum, wf_row_samples(rs));
+        else
+            rs->ops->add_row(row, sum, wf_row_samples(rs));
+    }
+    if (found == 1) rs->ops->set_rows(row, first, NULL, wf_row_samples(rs));
+    return found > 0;
 }
 
 /* Pixels of one phase side by side: out[r][m] += sum over t of weight[r][t] row[cell], for
@@ -90,7 +99,7 @@ static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
     size_t samples = (size_t)rs->phases * wf_run_length(rs);
     for (int c = 0; c < rs->desc.channels; c++) {
         double *out = s->picture + (size_t)c * samples;
-        add_up(f, taps, c, s->row);
+        if (!add_up(f, taps, c, s->row)) break;
         if (rs->polyphase)
             filter_phases(rs, kernel->weight, s->row, out);
         else

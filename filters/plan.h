@@ -97,6 +97,7 @@ struct wf_field {
     bool carried;       /* carry holds something */
     bool last;          /* the batch in hand completes the window */
     bool complete;
+    bool *touched;          /* [sums]: some sample was added; done and carry hold no others */
     atomic_int *bands_left; /* [lines]: how many of its bands are not closed yet */
     double *inside,
         *exists; /* [sums]: weight that met the display window's rows; and padding's */
@@ -107,9 +108,11 @@ struct wf_field {
 struct wf_scratch {
     const wf_resampler *rs;
     size_t slot_samples;
-    double *sums;            /* [slots][most_sums][channels][columns] */
-    double *row;             /* [lanes][lane_length] */
-    double *picture;         /* [channels][phases][run] */
+    double *sums;     /* [slots][most_sums][channels][columns] */
+    bool *live;       /* [slots][most_sums]: the sum has begun; others hold nothing yet */
+    size_t slot_sums; /* most_sums of both parities */
+    double *row;      /* [lanes][lane_length] */
+    double *picture;  /* [channels][phases][run] */
     double *inside, *exists; /* [width] */
     wf_kernel kernel;
 };
