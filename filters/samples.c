@@ -1,0 +1,231 @@
+#include "filters/samples.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples this near to the instant count where the window is one (resampling.md, Apertures). */
+#define INSTANT 0x1p-12
+
+/* Sums of one pixel. */
+typedef struct pixel_sum {
+    double r, g, b, weight;
+} pixel_sum;
+
+struct wf_gather {
+    wf_gather_desc desc;
+    int64_t field;
+    int parity, line_step, field_lines; /* of the field */
+    int first, end;                     /* lines held */
+    double tau, middle,
+        skew_a_line; /* field periods; middle: of the window, from the instant */
+    pixel_sum *sum;  /* [end - first][width] */
+};
+
+/* ---- Windows ---- */
+
+/* Instants in field periods; segmented frames show both fields at one. */
+static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) {
+    if (d->raster->scan != WF_SEGMENTED) return (double)(to - from);
+    return (double)(to / 2 - from / 2);
+}
+
+static double middle_of(const wf_gather_desc *d) {
+    static const double share[] = {[WF_START] = 0.5, [WF_CENTER] = 0, [WF_END] = -0.5};
+    return share[d->position] * wf_ratio_value(d->width);
+}
+
+static double skew_of(const wf_gather_desc *d) {
+    return wf_ratio_given(d->skew) ? wf_ratio_value(d->skew) : 0;
+}
+
+static double half_window(const wf_gather_desc *d) {
+    double tau = wf_ratio_value(d->width);
+    return tau > 0 ? tau / 2 : INSTANT;
+}
+
+void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double t1,
+                      int64_t *first, int64_t *last) {
+    double middle = middle_of(d), half = half_window(d);
+    double low = ceil(t0 - middle - half - skew_of(d)), high = floor(t1 - middle + half);
+    int64_t base = field, per = 1;
+    if (d->raster->scan == WF_SEGMENTED) base = field / 2, per = 2;
+    *first = (base + (int64_t)low) * per;
+    *last = (base + (int64_t)high) * per + per - 1;
+    if (*first < 0) *first = 0;
+}
+
+void wf_gather_lines(const wf_gather_desc *d, int64_t field, double y0, double y1, int *first,
+                     int *end) {
+    double reach = d->aperture.kind->reach_v;
+    int parity = wf_raster_parity(d->raster, field), step = wf_raster_line_step(d->raster);
+    int lines = wf_raster_field_lines(d->raster, parity);
+    double low = ceil((y0 - reach - 0.5 - parity) / step);
+    double high = floor((y1 + reach - 0.5 - parity) / step);
+    *first = low > 0 ? (low < lines ? (int)low : lines) : 0;
+    *end = high < lines - 1 ? (high >= 0 ? (int)high + 1 : 0) : lines;
+    if (*end < *first) *end = *first;
+}
+
+/* ---- Life ---- */
+
+size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
+    return (size_t)lines * (size_t)d->raster->width_px * sizeof(pixel_sum);
+}
+
+wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int end) {
+    wf_gather *g = calloc(1, sizeof *g);
+    if (!g) return NULL;
+    *g = (wf_gather){.desc = *d, .field = field, .first = first, .end = end};
+    g->parity = wf_raster_parity(d->raster, field);
+    g->line_step = wf_raster_line_step(d->raster);
+    g->field_lines = wf_raster_field_lines(d->raster, g->parity);
+    g->tau = wf_ratio_value(d->width);
+    g->middle = middle_of(d);
+    g->skew_a_line = skew_of(d) / d->raster->lines;
+    g->sum = calloc(1, wf_gather_bytes(d, end - first) + 1);
+    if (g->sum) return g;
+    free(g);
+    return NULL;
+}
+
+void wf_gather_free(wf_gather *g) {
+    if (!g) return;
+    free(g->sum);
+    free(g);
+}
+
+static pixel_sum *line_sums(const wf_gather *g, int line) {
+    return g->sum + (size_t)(line - g->first) * (size_t)g->desc.raster->width_px;
+}
+
+/* ---- Adding ---- */
+
+typedef struct one_sample {
+    double x, y, t; /* t: from the field's instant */
+    double r, g, b, weight;
+} one_sample;
+
+static one_sample sample_at(const wf_gather *g, const wf_samples *s, size_t i) {
+    double apart = instants_apart(&g->desc, s->field, g->field);
+    return (one_sample){.x = (double)s->x[i],
+                        .y = (double)s->y[i],
+                        .t = (double)s->t[i] - apart,
+                        .r = (double)s->rgb[0][i],
+                        .g = (double)s->rgb[1][i],
+                        .b = (double)s->rgb[2][i],
+                        .weight = s->weight ? (double)s->weight[i] : 1};
+}
+
+static void add_to_pixel(pixel_sum *sum, const one_sample *s, double h) {
+    double w = h * s->weight;
+    sum->r += w * s->r;
+    sum->g += w * s->g;
+    sum->b += w * s->b;
+    sum->weight += w;
+}
+
+/* h at q from the window's middle; an instant's aperture has only u and v, and the diamond's is
+ * then the tent that it tends to. */
+static double value_at(const wf_gather *g, double u, double v, double q) {
+    const wf_aperture *a = &g->desc.aperture;
+    if (g->tau > 0) return wf_aperture_value(a, g->tau, u, v, q);
+    if (a->kind->couples_vq) return fabs(u) <= 0.5 && fabs(v) < 1 ? 1 - fabs(v) : 0;
+    return wf_aperture_value(a, 1, u, v, 0);
+}
+
+static void add_to_line(wf_gather *g, const one_sample *s, int line, int from, int to) {
+    int j = g->parity + line * g->line_step;
+    double v = s->y - (j + 0.5), q = s->t - g->skew_a_line * j - g->middle;
+    if (fabs(q) > (g->tau > 0 ? g->tau / 2 : INSTANT)) return;
+    pixel_sum *sum = line_sums(g, line);
+    for (int i = from; i <= to; i++) {
+        double h = value_at(g, s->x - (i + 0.5), v, q);
+        if (h != 0) add_to_pixel(&sum[i], s, h);
+    }
+}
+
+static int clamp_pixel(double x, int least, int most) {
+    return x <= least ? least : x >= most ? most : (int)x;
+}
+
+static void add_sample(wf_gather *g, const one_sample *s) {
+    double reach = g->desc.aperture.kind->reach_u;
+    int width = g->desc.raster->width_px, first, end;
+    if (!(fabs(s->x) < 1e9 && fabs(s->y) < 1e9 && fabs(s->t) < 1e15)) return;
+    int from = clamp_pixel(ceil(s->x - 0.5 - reach), 0, width);
+    int to = clamp_pixel(floor(s->x - 0.5 + reach), -1, width - 1);
+    wf_gather_lines(&g->desc, g->field, s->y, s->y, &first, &end);
+    if (first < g->first) first = g->first;
+    if (end > g->end) end = g->end;
+    for (int line = first; line < end; line++) add_to_line(g, s, line, from, to);
+}
+
+void wf_gather_add(wf_gather *g, const wf_samples *samples) {
+    for (size_t i = 0; i < samples->count; i++) {
+        one_sample s = sample_at(g, samples, i);
+        add_sample(g, &s);
+    }
+}
+
+void wf_gather_merge(wf_gather *g, const wf_gather *from) {
+    size_t width = (size_t)g->desc.raster->width_px;
+    int first = g->first > from->first ? g->first : from->first;
+    int end = g->end < from->end ? g->end : from->end;
+    for (int line = first; line < end; line++) {
+        pixel_sum *to = line_sums(g, line);
+        const pixel_sum *add = line_sums(from, line);
+        for (size_t i = 0; i < width; i++) {
+            to[i].r += add[i].r;
+            to[i].g += add[i].g;
+            to[i].b += add[i].b;
+            to[i].weight += add[i].weight;
+        }
+    }
+}
+
+/* ---- Finishing ---- */
+
+int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
+    const pixel_sum *sum = line_sums(g, line);
+    int empty = -1;
+    for (int i = 0; i < g->desc.raster->width_px; i++) {
+        bool reached = sum[i].weight != 0;
+        double share = reached ? 1 / sum[i].weight : 0;
+        if (!reached && empty < 0) empty = i;
+        rgb[0][i] = (float)(sum[i].r * share);
+        rgb[1][i] = (float)(sum[i].g * share);
+        rgb[2][i] = (float)(sum[i].b * share);
+    }
+    return empty;
+}
+
+/* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
+static int nearest_in_line(const wf_gather *g, int line, int pixel) {
+    const pixel_sum *sum = line_sums(g, line);
+    int width = g->desc.raster->width_px;
+    for (int d = 0; d < width; d++) {
+        if (pixel - d >= 0 && sum[pixel - d].weight != 0) return pixel - d;
+        if (pixel + d < width && sum[pixel + d].weight != 0) return pixel + d;
+    }
+    return -1;
+}
+
+bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
+    const pixel_sum *best = NULL;
+    double best_distance = HUGE_VAL;
+    for (int l = g->first; l < g->end; l++) {
+        double down = (double)(l - line) * g->line_step;
+        if (down * down >= best_distance) continue;
+        int near = nearest_in_line(g, l, pixel);
+        double across = near - pixel, distance = down * down + across * across;
+        if (near < 0 || distance >= best_distance) continue;
+        best_distance = distance;
+        best = &line_sums(g, l)[near];
+    }
+    if (!best) return false;
+    rgb[0] = (float)(best->r / best->weight);
+    rgb[1] = (float)(best->g / best->weight);
+    rgb[2] = (float)(best->b / best->weight);
+    return true;
+}
