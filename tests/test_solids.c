@@ -134,7 +134,7 @@ static void check_ends(size_t which, const wf_rays *r, const wf_runs *runs, int 
     for (int k = 0; k < 4; k++) {
         double at = k % 2 ? runs->out[k / 2][i] : runs->in[k / 2][i];
         long double p[3];
-        assert_false(isnan(at));
+        if (isnan(at)) fail_msg("solid %zu, ray %d: an end is NaN", which, i);
         if (isinf(at)) continue;
         point_at(r, i, at, p);
         if (fabsl(p[0]) > 100 || fabsl(p[1]) > 100 || fabsl(p[2]) > 100) continue;
