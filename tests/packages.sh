@@ -3,7 +3,8 @@
 # examples/quickstart.sh (bash).
 
 build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libopenimageio-dev
-                libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev)
+                libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev
+                liblua5.4-dev)
 test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
                openimageio-tools)
 

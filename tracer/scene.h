@@ -41,6 +41,8 @@ typedef struct wf_op {
     wf_vec axis, center; /* WF_OP_SPIN: unit axis and a point on it */
     double turns_a_second_num, turns_a_second_den; /* exact doubles: 10 rpm is 10 / 60 */
     int first_key, key_count;
+    bool own_width; /* it moves through a window of its own temporal width, in field periods */
+    double width_fields;
 } wf_op;
 
 /* ---- Looks ---- */
@@ -92,7 +94,7 @@ typedef struct wf_material {
  *   halfspace  y <= 0
  *   quadric    the ten coefficients q of q0 x^2 + q1 y^2 + q2 z^2 + q3 xy + q4 yz + q5 zx + q6
  * x + q7 y + q8 z + q9 <= 0 polyhedron planes n . p <= d, the scene's planes from first_plane
- * on */
+ * on; shape[6] > 0: its corners lie within shape[0..2] and shape[3..5] */
 typedef enum wf_solid_kind {
     WF_SPHERE,
     WF_BOX,
@@ -113,11 +115,12 @@ typedef struct wf_solid {
     wf_solid_kind kind;
     double shape[10];
     int first_plane, plane_count;
-    wf_affine place; /* canonical to the space it was written in: never singular */
+    wf_affine place; /* canonical to the space where op takes it up: never singular */
     wf_affine inverse;
-    int op; /* first operator applied to it; -1: it stands as written */
+    int op;      /* first operator applied to it; -1: it stands in the world */
+    int written; /* WF_OP_PLACE that is in place already: its inverse leads from there to the
+                    space in which the solid was written; -1: that is the same */
     int material;
-    double temporal_width; /* its own, in field periods; < 0: the job's */
 } wf_solid;
 
 /* ---- CSG ---- */
