@@ -82,15 +82,15 @@ static void make_tree(program *p, int solids, uint32_t *seed) {
         }
     }
     for (int k = 0; k < solids; k++) make_runs(&p->runs[k], seed), p->name[k] = 100 + k;
-    p->csg = (wf_csg){p->steps, steps, p->runs, p->name, solids, 7};
+    p->csg = (wf_csg){p->steps, steps, p->runs, p->name, solids};
 }
 
 static void nearest(const wf_csg *c, wf_hits *hits) {
-    static uint8_t stack[2 * 64 * WF_PACKET];
+    static wf_csg_entry stack[64];
     double rounding[WF_PACKET];
     for (int i = 0; i < WF_PACKET; i++) rounding[i] = 1e-9;
-    wf_hits_clear(hits, WF_PACKET);
-    wf_csg_nearest(c, WF_PACKET, rounding, stack, hits);
+    wf_hits_clear(hits);
+    wf_csg_best()->nearest(c, rounding, stack, hits);
 }
 
 /* Where the whole first changes, walking from whole number to whole number. */
@@ -119,7 +119,6 @@ static void the_nearest_change(void **state) {
                 fail_msg("program %d, ray %d: %g, should be %g", n, i, hits.s[i], should);
             if (isinf(should)) continue;
             assert_int_equal(hits.entering[i], entering);
-            assert_int_equal(hits.object[i], 7);
             const wf_runs *r = &p.runs[hits.solid[i] - 100];
             assert_true(r->in[0][i] == should || r->out[0][i] == should ||
                         r->in[1][i] == should || r->out[1][i] == should);
@@ -180,8 +179,8 @@ static void set_algebra(void **state) {
             const int name[3] = {0, 1, 2};
             wf_hits a, b;
             for (int k = 0; k < 3; k++) make_runs(&runs[k], &seed);
-            wf_csg left = {d->left, d->left_count, runs, name, 3, 0};
-            wf_csg right = {d->right, d->right_count, runs, name, 3, 0};
+            wf_csg left = {d->left, d->left_count, runs, name, 3};
+            wf_csg right = {d->right, d->right_count, runs, name, 3};
             nearest(&left, &a);
             nearest(&right, &b);
             if (memcmp(a.s, b.s, sizeof a.s)) fail_msg("%s does not hold", d->name);
@@ -197,7 +196,7 @@ static void a_solid_less_itself_is_nothing(void **state) {
     wf_runs runs;
     wf_hits hits;
     make_runs(&runs, &seed);
-    wf_csg c = {steps, 3, &runs, &name, 1, 0};
+    wf_csg c = {steps, 3, &runs, &name, 1};
     nearest(&c, &hits);
     for (int i = 0; i < WF_PACKET; i++) assert_true(isinf(hits.s[i]));
 }
@@ -218,7 +217,7 @@ static void deep_programs(void **state) {
         steps[2 * k + 2] = (wf_step){WF_STEP_UNION, 2};
     }
     make_runs(&runs, &seed);
-    wf_csg c = {steps, 2 * DEPTH + 1, &runs, &name, 1, 0}, one = {steps, 1, &runs, &name, 1, 0};
+    wf_csg c = {steps, 2 * DEPTH + 1, &runs, &name, 1}, one = {steps, 1, &runs, &name, 1};
     nearest(&c, &deep);
     nearest(&one, &plain);
     assert_memory_equal(deep.s, plain.s, sizeof deep.s);

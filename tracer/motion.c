@@ -74,7 +74,7 @@ wf_ready_op wf_op_ready(const wf_scene *scene, int index, wf_rational base_s) {
     ready.offset = (wf_vec){op->velocity.x * t, op->velocity.y * t, op->velocity.z * t};
     if (op->kind == WF_OP_SPIN) {
         ready.phase = phase_of(op, base_s);
-        ready.rate = 2 * PI * (op->turns_a_second_num / op->turns_a_second_den);
+        ready.turns_a_second = op->turns_a_second_num / op->turns_a_second_den;
     }
     return ready;
 }
@@ -134,7 +134,7 @@ static wf_vec drifted(const wf_ready_op *r, double dt_s, double sign) {
 }
 
 static double angle_at(const wf_ready_op *r, double dt_s) {
-    return 2 * PI * r->phase + r->rate * dt_s;
+    return 2 * PI * (r->phase + r->turns_a_second * dt_s);
 }
 
 wf_affine wf_op_at(const wf_ready_op *r, double dt_s) {

@@ -10,9 +10,9 @@
  * than double, so that an angle at frame 10^7 is as good as one at frame 0. */
 typedef struct wf_ready_op {
     const wf_op *op;
-    wf_affine place, inverse; /* WF_OP_PLACE */
-    wf_vec offset;            /* WF_OP_VELOCITY: where it has got to at the base */
-    double phase, rate;       /* WF_OP_SPIN: turns at the base, in 0..1; radians a second */
+    wf_affine place, inverse;     /* WF_OP_PLACE */
+    wf_vec offset;                /* WF_OP_VELOCITY: where it has got to at the base */
+    double phase, turns_a_second; /* WF_OP_SPIN: turns at the base, in 0..1 */
     const wf_key *keys;
     double base_s; /* rounded: keyframes */
 } wf_ready_op;

@@ -6,14 +6,19 @@
 
 /* ---- Dispatch ---- */
 
-extern wf_intersect_fn *const wf_intersect_v1[WF_SOLID_KINDS];
+#define LEVEL(v)                                                                               \
+    extern wf_intersect_fn *const wf_intersect_##v[WF_SOLID_KINDS];                            \
+    extern wf_normals_fn *const wf_normals_##v[WF_SOLID_KINDS];
+LEVEL(v1)
 #if defined(__x86_64__)
-extern wf_intersect_fn *const wf_intersect_v3[WF_SOLID_KINDS];
-extern wf_intersect_fn *const wf_intersect_v4[WF_SOLID_KINDS];
+LEVEL(v3)
+LEVEL(v4)
 static wf_intersect_fn *const *const levels[] = {wf_intersect_v1, wf_intersect_v3,
                                                  wf_intersect_v4};
+static wf_normals_fn *const *const normals[] = {wf_normals_v1, wf_normals_v3, wf_normals_v4};
 #else
 static wf_intersect_fn *const *const levels[] = {wf_intersect_v1};
+static wf_normals_fn *const *const normals[] = {wf_normals_v1};
 #endif
 
 wf_intersect_fn *const *wf_intersect_at(size_t level) {
@@ -24,7 +29,15 @@ wf_intersect_fn *const *wf_intersect_best(void) {
     return levels[wf_isa_levels() - 1];
 }
 
-/* ---- Points and normals ---- */
+wf_normals_fn *const *wf_normals_at(size_t level) {
+    return level < (size_t)wf_isa_levels() ? normals[level] : NULL;
+}
+
+wf_normals_fn *const *wf_normals_best(void) {
+    return normals[wf_isa_levels() - 1];
+}
+
+/* ---- Points ---- */
 
 #define SOLID const wf_solid *s, const wf_plane *planes
 
@@ -41,11 +54,6 @@ static bool in_sphere(SOLID, wf_vec p) {
     return squared(p) <= 1;
 }
 
-static wf_vec sphere_normal(SOLID, wf_vec p) {
-    (void)s, (void)planes;
-    return p;
-}
-
 static wf_bounds unit_bounds(SOLID) {
     (void)s, (void)planes;
     return cube(1, 1, 1);
@@ -56,22 +64,9 @@ static bool in_box(SOLID, wf_vec p) {
     return fabs(p.x) <= 1 && fabs(p.y) <= 1 && fabs(p.z) <= 1;
 }
 
-static wf_vec box_normal(SOLID, wf_vec p) {
-    double x = fabs(p.x), y = fabs(p.y), z = fabs(p.z);
-    (void)s, (void)planes;
-    if (x >= y && x >= z) return (wf_vec){p.x, 0, 0};
-    return y >= z ? (wf_vec){0, p.y, 0} : (wf_vec){0, 0, p.z};
-}
-
 static bool in_cylinder(SOLID, wf_vec p) {
     (void)s, (void)planes;
     return p.x * p.x + p.z * p.z <= 1 && fabs(p.y) <= 1;
-}
-
-static wf_vec cylinder_normal(SOLID, wf_vec p) {
-    (void)s, (void)planes;
-    bool cap = fabs(p.y) * fabs(p.y) > p.x * p.x + p.z * p.z;
-    return cap ? (wf_vec){0, p.y, 0} : (wf_vec){p.x, 0, p.z};
 }
 
 static double cone_radius(const wf_solid *s, double y) {
@@ -84,25 +79,10 @@ static bool in_cone(SOLID, wf_vec p) {
     return fabs(p.y) <= 1 && p.x * p.x + p.z * p.z <= radius * radius;
 }
 
-/* The side is where the distance to it is less than to the caps. */
-static wf_vec cone_normal(SOLID, wf_vec p) {
-    double across = sqrt(p.x * p.x + p.z * p.z), slope = (s->shape[1] - s->shape[0]) / 2;
-    double to_side = fabs(across - cone_radius(s, p.y)) / sqrt(1 + slope * slope);
-    (void)planes;
-    if (fabs(1 - fabs(p.y)) < to_side || across == 0) return (wf_vec){0, p.y, 0};
-    return (wf_vec){p.x, -slope * across, p.z};
-}
-
 static bool in_torus(SOLID, wf_vec p) {
     double across = sqrt(p.x * p.x + p.z * p.z) - 1;
     (void)planes;
     return across * across + p.y * p.y <= s->shape[0] * s->shape[0];
-}
-
-static wf_vec torus_normal(SOLID, wf_vec p) {
-    double across = sqrt(p.x * p.x + p.z * p.z), share = across > 0 ? 1 - 1 / across : 0;
-    (void)s, (void)planes;
-    return (wf_vec){p.x * share, p.y, p.z * share};
 }
 
 static wf_bounds torus_bounds(SOLID) {
@@ -113,11 +93,6 @@ static wf_bounds torus_bounds(SOLID) {
 static bool in_halfspace(SOLID, wf_vec p) {
     (void)s, (void)planes;
     return p.y <= 0;
-}
-
-static wf_vec halfspace_normal(SOLID, wf_vec p) {
-    (void)s, (void)planes, (void)p;
-    return (wf_vec){0, 1, 0};
 }
 
 static wf_bounds halfspace_bounds(SOLID) {
@@ -132,14 +107,6 @@ static bool in_quadric(SOLID, wf_vec p) {
                q[4] * p.y * p.z + q[5] * p.z * p.x + q[6] * p.x + q[7] * p.y + q[8] * p.z +
                q[9] <=
            0;
-}
-
-static wf_vec quadric_normal(SOLID, wf_vec p) {
-    const double *q = s->shape;
-    (void)planes;
-    return (wf_vec){2 * q[0] * p.x + q[3] * p.y + q[5] * p.z + q[6],
-                    2 * q[1] * p.y + q[3] * p.x + q[4] * p.z + q[7],
-                    2 * q[2] * p.z + q[4] * p.y + q[5] * p.x + q[8]};
 }
 
 static wf_bounds endless_bounds(SOLID) {
@@ -157,26 +124,98 @@ static bool in_polyhedron(SOLID, wf_vec p) {
     return true;
 }
 
-static wf_vec polyhedron_normal(SOLID, wf_vec p) {
-    const wf_plane *nearest = &planes[s->first_plane];
-    for (int k = 1; k < s->plane_count; k++) {
-        const wf_plane *f = &planes[s->first_plane + k];
-        if (over_plane(f, p) > over_plane(nearest, p)) nearest = f;
+static wf_bounds polyhedron_bounds(SOLID) {
+    const double *b = s->shape;
+    if (!(b[6] > 0)) return endless_bounds(s, planes);
+    return (wf_bounds){{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+}
+
+/* ---- Corners of polyhedra ---- */
+
+/* Beyond this many planes, looking at all triples takes too long. */
+#define MOST_CORNERED 64
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double along(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Whether one can go on for ever in direction d (of about length 1). */
+static bool is_open(const wf_plane *f, int count, const double d[3], double sign) {
+    for (int k = 0; k < count; k++)
+        if (sign * along(f[k].n, d) > 1e-9) return false;
+    return true;
+}
+
+/* An endless polyhedron has an edge that goes on for ever, unless it has no corner at all. */
+static bool is_endless(const wf_plane *f, int count) {
+    for (int i = 0; i < count; i++)
+        for (int j = i + 1; j < count; j++) {
+            double d[3];
+            cross(f[i].n, f[j].n, d);
+            double size = sqrt(along(d, d));
+            if (size < 1e-6) continue;
+            for (int k = 0; k < 3; k++) d[k] /= size;
+            if (is_open(f, count, d, 1) || is_open(f, count, d, -1)) return true;
+        }
+    return false;
+}
+
+static bool meet(const wf_plane *a, const wf_plane *b, const wf_plane *c, double p[3]) {
+    double bc[3], ca[3], ab[3];
+    cross(b->n, c->n, bc);
+    cross(c->n, a->n, ca);
+    cross(a->n, b->n, ab);
+    double det = along(a->n, bc);
+    if (fabs(det) < 1e-12) return false;
+    for (int k = 0; k < 3; k++) p[k] = (a->d * bc[k] + b->d * ca[k] + c->d * ab[k]) / det;
+    return true;
+}
+
+static bool is_corner(const wf_plane *f, int count, const double p[3]) {
+    double size = fabs(p[0]) + fabs(p[1]) + fabs(p[2]);
+    for (int k = 0; k < count; k++)
+        if (along(f[k].n, p) - f[k].d > 1e-6 * (size + fabs(f[k].d))) return false;
+    return true;
+}
+
+static void hold_corner(double box[7], const double p[3]) {
+    for (int k = 0; k < 3; k++) {
+        box[k] = box[6] > 0 ? fmin(box[k], p[k]) : p[k];
+        box[3 + k] = box[6] > 0 ? fmax(box[3 + k], p[k]) : p[k];
     }
-    return (wf_vec){nearest->n[0], nearest->n[1], nearest->n[2]};
+    box[6] = 1;
+}
+
+void wf_polyhedron_bound(wf_solid *solid, const wf_plane *planes) {
+    const wf_plane *f = planes + solid->first_plane;
+    int n = solid->plane_count;
+    double p[3];
+    solid->shape[6] = 0;
+    if (n < 4 || n > MOST_CORNERED || is_endless(f, n)) return;
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++)
+            for (int k = j + 1; k < n; k++)
+                if (meet(&f[i], &f[j], &f[k], p) && is_corner(f, n, p))
+                    hold_corner(solid->shape, p);
 }
 
 /* ---- The table ---- */
 
 static const wf_solid_type types[WF_SOLID_KINDS] = {
-    [WF_SPHERE] = {"sphere", 1, sphere_normal, in_sphere, unit_bounds},
-    [WF_BOX] = {"box", 1, box_normal, in_box, unit_bounds},
-    [WF_CYLINDER] = {"cylinder", 1, cylinder_normal, in_cylinder, unit_bounds},
-    [WF_CONE] = {"cone", 1, cone_normal, in_cone, unit_bounds},
-    [WF_TORUS] = {"torus", 2, torus_normal, in_torus, torus_bounds},
-    [WF_HALFSPACE] = {"halfspace", 1, halfspace_normal, in_halfspace, halfspace_bounds},
-    [WF_QUADRIC] = {"quadric", 2, quadric_normal, in_quadric, endless_bounds},
-    [WF_POLYHEDRON] = {"polyhedron", 1, polyhedron_normal, in_polyhedron, endless_bounds},
+    [WF_SPHERE] = {"sphere", 1, in_sphere, unit_bounds},
+    [WF_BOX] = {"box", 1, in_box, unit_bounds},
+    [WF_CYLINDER] = {"cylinder", 1, in_cylinder, unit_bounds},
+    [WF_CONE] = {"cone", 1, in_cone, unit_bounds},
+    [WF_TORUS] = {"torus", 2, in_torus, torus_bounds},
+    [WF_HALFSPACE] = {"halfspace", 1, in_halfspace, halfspace_bounds},
+    [WF_QUADRIC] = {"quadric", 2, in_quadric, endless_bounds},
+    [WF_POLYHEDRON] = {"polyhedron", 1, in_polyhedron, polyhedron_bounds},
 };
 
 const wf_solid_type *wf_solid_type_of(wf_solid_kind kind) {

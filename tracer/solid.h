@@ -6,7 +6,7 @@
 /* Rays travel in packets, one array for each component, so that loops over them vectorise.
  * Counts beyond `count` up to the next multiple of 8 hold copies of the last ray and may be
  * computed. */
-#define WF_PACKET 64
+#define WF_PACKET 128
 
 typedef struct wf_rays {
     int count;
@@ -28,6 +28,15 @@ typedef struct wf_bounds {
     double low[3], high[3];
 } wf_bounds;
 
+typedef struct wf_points {
+    _Alignas(64) double x[WF_PACKET], y[WF_PACKET], z[WF_PACKET];
+} wf_points;
+
+/* Outward normals, of any length > 0, at points on (or within rounding of) the surface; all
+ * WF_PACKET of them are computed. */
+typedef void wf_normals_fn(const wf_solid *solid, const wf_plane *planes,
+                           const wf_points *points, wf_points *normals);
+
 typedef void wf_intersect_fn(const wf_solid *solid, const wf_plane *planes, const wf_rays *rays,
                              wf_runs *runs);
 
@@ -35,17 +44,21 @@ typedef void wf_intersect_fn(const wf_solid *solid, const wf_plane *planes, cons
 typedef struct wf_solid_type {
     const char *name;
     int most_runs; /* 1 or 2 */
-    /* Outward normal, of any length > 0, at a point on (or within rounding of) the surface. */
-    wf_vec (*normal)(const wf_solid *solid, const wf_plane *planes, wf_vec p);
     bool (*inside)(const wf_solid *solid, const wf_plane *planes, wf_vec p);
     wf_bounds (*bounds)(const wf_solid *solid, const wf_plane *planes);
 } wf_solid_type;
 
 const wf_solid_type *wf_solid_type_of(wf_solid_kind kind);
 
+/* Finds the box around a polyhedron's corners and notes it in its shape, unless it is endless
+ * or of very many planes. */
+void wf_polyhedron_bound(wf_solid *solid, const wf_plane *planes);
+
 /* Ray loops by kind, one table for each instruction set, slowest first; NULL past the last one
  * this processor runs. All give the same bits. */
 wf_intersect_fn *const *wf_intersect_at(size_t level);
 wf_intersect_fn *const *wf_intersect_best(void);
+wf_normals_fn *const *wf_normals_at(size_t level);
+wf_normals_fn *const *wf_normals_best(void);
 
 #endif

@@ -205,6 +205,14 @@ static int torus_runs(double tube, const double c[3], const double d[3], double 
     return 1;
 }
 
+/* Whether all of a stretch is nearer to the axis than the tube: it is so between its ends if it
+ * is so at both. */
+static bool in_hole(const double c[3], const double d[3], double from, double to, double hole) {
+    double x0 = c[0] + from * d[0], z0 = c[2] + from * d[2];
+    double x1 = c[0] + to * d[0], z1 = c[2] + to * d[2], most2 = hole * hole * (1 - 0x1p-40);
+    return hole > 0 && x0 * x0 + z0 * z0 < most2 && x1 * x1 + z1 * z1 < most2;
+}
+
 static void torus(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
                   wf_runs *runs) {
     double tube = solid->shape[0], far = 1 + tube;
@@ -218,11 +226,105 @@ static void torus(const wf_solid *solid, const wf_plane *planes, const wf_rays *
         double half = sqrt(most(rest, 0) / dd), end[4] = {0};
         slab(c[1], d[1], -tube, tube, &in, &out);
         double from = most(in, -half), to = least(out, half);
-        int found = from < to ? torus_runs(tube, c, d, from, to, end) : 0;
+        bool near_ring = from < to && !in_hole(c, d, from, to, 1 - tube);
+        int found = near_ring ? torus_runs(tube, c, d, from, to, end) : 0;
         put(runs, 0, i, found > 0 ? near + end[0] : HUGE_VAL,
             found > 0 ? near + end[1] : -HUGE_VAL);
         put(runs, 1, i, found > 1 ? near + end[2] : HUGE_VAL,
             found > 1 ? near + end[3] : -HUGE_VAL);
+    }
+}
+
+/* ---- Normals ---- */
+
+#define NORMALS                                                                                \
+    const wf_solid *solid, const wf_plane *planes, const wf_points *restrict p,                \
+        wf_points *restrict n
+
+static void sphere_normals(NORMALS) {
+    (void)solid, (void)planes;
+    *n = *p;
+}
+
+static void box_normals(NORMALS) {
+    (void)solid, (void)planes;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = fabs(p->x[i]), y = fabs(p->y[i]), z = fabs(p->z[i]);
+        double far = most(x, most(y, z)), px = p->x[i], py = p->y[i], pz = p->z[i];
+        n->x[i] = x == far ? px : 0;
+        n->y[i] = y == far && x != far ? py : 0;
+        n->z[i] = z == far && x != far && y != far ? pz : 0;
+    }
+}
+
+static void cylinder_normals(NORMALS) {
+    (void)solid, (void)planes;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = p->x[i], y = p->y[i], z = p->z[i];
+        double cap = y * y > x * x + z * z ? 1 : 0, side = 1 - cap;
+        n->x[i] = side * x;
+        n->y[i] = cap * y;
+        n->z[i] = side * z;
+    }
+}
+
+/* The side is where the distance to it is less than to the caps. */
+static void cone_normals(NORMALS) {
+    double slope = (solid->shape[1] - solid->shape[0]) / 2,
+           middle = (solid->shape[1] + solid->shape[0]) / 2, tilt = 1 / sqrt(1 + slope * slope);
+    (void)planes;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = p->x[i], y = p->y[i], z = p->z[i], across = sqrt(x * x + z * z);
+        double to_side = fabs(across - (middle + slope * y)) * tilt;
+        double cap = fabs(1 - fabs(y)) < to_side ? 1 : 0;
+        cap = across == 0 ? 1 : cap;
+        n->x[i] = (1 - cap) * x;
+        n->y[i] = cap != 0 ? y : -slope * across;
+        n->z[i] = (1 - cap) * z;
+    }
+}
+
+static void torus_normals(NORMALS) {
+    (void)solid, (void)planes;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = p->x[i], z = p->z[i], across = sqrt(x * x + z * z);
+        double share = across > 0 ? 1 - 1 / across : 0;
+        n->x[i] = x * share;
+        n->y[i] = p->y[i];
+        n->z[i] = z * share;
+    }
+}
+
+static void halfspace_normals(NORMALS) {
+    (void)solid, (void)planes, (void)p;
+    for (int i = 0; i < WF_PACKET; i++) n->x[i] = n->z[i] = 0, n->y[i] = 1;
+}
+
+static void quadric_normals(NORMALS) {
+    const double *q = solid->shape;
+    (void)planes;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = p->x[i], y = p->y[i], z = p->z[i];
+        n->x[i] = 2 * q[0] * x + q[3] * y + q[5] * z + q[6];
+        n->y[i] = 2 * q[1] * y + q[3] * x + q[4] * z + q[7];
+        n->z[i] = 2 * q[2] * z + q[4] * y + q[5] * x + q[8];
+    }
+}
+
+/* Of the face whose plane is nearest, from within. */
+static void polyhedron_normals(NORMALS) {
+    double best[WF_PACKET];
+    for (int i = 0; i < WF_PACKET; i++) best[i] = -HUGE_VAL;
+    for (int k = 0; k < solid->plane_count; k++) {
+        wf_plane f = planes[solid->first_plane + k];
+        for (int i = 0; i < WF_PACKET; i++) {
+            double over = f.n[0] * p->x[i] + f.n[1] * p->y[i] + f.n[2] * p->z[i] - f.d;
+            double was = best[i];
+            best[i] = over > was ? over : was;
+            n->x[i] = over > was ? f.n[0] : n->x[i];
+            n->y[i] = over > was ? f.n[1] : n->y[i];
+            n->z[i] = over > was ? f.n[2] : n->z[i];
+        }
     }
 }
 
@@ -232,4 +334,12 @@ wf_intersect_fn *const JOIN(wf_intersect_, WF_ISA)[WF_SOLID_KINDS] = {
     [WF_CYLINDER] = cylinder, [WF_CONE] = cone,
     [WF_TORUS] = torus,       [WF_HALFSPACE] = halfspace,
     [WF_QUADRIC] = quadric,   [WF_POLYHEDRON] = polyhedron,
+};
+
+extern wf_normals_fn *const JOIN(wf_normals_, WF_ISA)[WF_SOLID_KINDS];
+wf_normals_fn *const JOIN(wf_normals_, WF_ISA)[WF_SOLID_KINDS] = {
+    [WF_SPHERE] = sphere_normals,     [WF_BOX] = box_normals,
+    [WF_CYLINDER] = cylinder_normals, [WF_CONE] = cone_normals,
+    [WF_TORUS] = torus_normals,       [WF_HALFSPACE] = halfspace_normals,
+    [WF_QUADRIC] = quadric_normals,   [WF_POLYHEDRON] = polyhedron_normals,
 };

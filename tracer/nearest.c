@@ -1,0 +1,257 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tracer/inside.h"
+
+/* ---- What can be met ---- */
+
+typedef struct finding {
+    const wf_tracer *t;
+    wf_trace_scratch *s;
+    const wf_packet *packet;
+    const wf_shaft *shaft;
+} finding;
+
+static bool meets_bounds(void *user, int solid, wf_stretch *stretch) {
+    const finding *f = user;
+    return wf_shaft_meets(f->shaft, &f->t->solid_bounds[solid], stretch);
+}
+
+/* In the solid's own space its box is tight, and a half-space has one. */
+static bool meets_form(void *user, int index, wf_stretch *stretch) {
+    const finding *f = user;
+    const wf_solid *solid = &f->t->scene->solids[index];
+    const wf_shaft *outer = wf_carry_shaft(f->t, f->s, f->packet, f->shaft, solid->op);
+    if (!outer) {
+        f->s->failed = true;
+        return false;
+    }
+    wf_shaft own = wf_shaft_place(&solid->inverse, outer);
+    wf_bounds box = wf_solid_type_of(solid->kind)->bounds(solid, f->t->scene->planes);
+    return wf_shaft_meets(&own, &box, stretch);
+}
+
+static wf_cull_scene cull_scene(finding *f) {
+    return (wf_cull_scene){f->t->scene->steps,
+                           f->t->parts,
+                           f->t->part_bounds,
+                           f->t->skip ? f->shaft : NULL,
+                           f->packet ? meets_form : meets_bounds,
+                           f};
+}
+
+static int find_parts(const finding *f, int *found) {
+    const wf_tracer *t = f->t;
+    int count = t->endless_count;
+    for (int n = 0; !t->skip && n < t->part_count; n++) found[n] = n;
+    if (!t->skip) return t->part_count;
+    memcpy(found, t->endless, (size_t)count * sizeof *found);
+    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, found + count);
+    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, found + count);
+}
+
+static void clear(wf_culls *c) {
+    c->part_count = c->step_count = c->solid_count = 0;
+}
+
+bool wf_find(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+             const wf_shaft *shaft, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    const wf_cull_scene scene = cull_scene(&f);
+    int count = find_parts(&f, s->found);
+    clear(out);
+    for (int n = 0; n < count; n++)
+        if (!wf_cull_part(&scene, s->found[n], s->stack, out)) return false;
+    wf_culls_sort(out);
+    return !s->failed;
+}
+
+bool wf_find_again(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                   const wf_shaft *shaft, const wf_culls *from, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    const wf_cull_scene scene = cull_scene(&f);
+    clear(out);
+    if (!wf_cull_again(&scene, from, s->stack, out)) return false;
+    wf_culls_sort(out);
+    return !s->failed;
+}
+
+/* ---- Hits ---- */
+
+typedef struct search {
+    const wf_tracer *t;
+    wf_trace_scratch *s;
+    const wf_packet *packet;
+    const wf_culls *culls;
+    wf_hits *hits;
+    _Alignas(64) double rounding[WF_PACKET];
+} search;
+
+/* Of the size of where rays start, as their parameter counts. */
+static void set_rounding(search *q) {
+    const wf_rays *r = &q->packet->rays;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double o = fmax(fabs(r->ox[i]), fmax(fabs(r->oy[i]), fabs(r->oz[i])));
+        double d = fmax(fabs(r->dx[i]), fmax(fabs(r->dy[i]), fabs(r->dz[i])));
+        q->rounding[i] = o / d * WF_ROUNDING;
+    }
+}
+
+static bool make_runs(const search *q, int solid, wf_runs *runs) {
+    const wf_solid *form = &q->t->scene->solids[solid];
+    const wf_rays *rays = wf_carry_rays(q->t, q->s, q->packet, form->op);
+    wf_rays local;
+    if (!rays) return false;
+    q->t->packet->place(&form->inverse, rays, &local);
+    int most = wf_solid_type_of(form->kind)->most_runs;
+    for (int i = 0; most < 2 && i < WF_PACKET; i++)
+        runs->in[1][i] = HUGE_VAL, runs->out[1][i] = -HUGE_VAL;
+    local.count = WF_PACKET;
+    q->t->intersect[form->kind](form, q->t->scene->planes, &local, runs);
+    return true;
+}
+
+static bool runs_room(wf_trace_scratch *s, size_t need) {
+    if (need <= s->runs_room) return true;
+    wf_runs *grown = aligned_alloc(64, 2 * need * sizeof *grown);
+    if (!grown) return false;
+    if (s->runs_room) memcpy(grown, s->runs, s->runs_room * sizeof *grown);
+    free(s->runs);
+    s->runs = grown;
+    s->runs_room = 2 * need;
+    return true;
+}
+
+static bool make_part_runs(const search *q, const wf_culled *part, size_t first) {
+    if (!runs_room(q->s, first + (size_t)part->solid_count)) return false;
+    for (int k = 0; k < part->solid_count; k++)
+        if (!make_runs(q, q->culls->solid[part->solid + (size_t)k],
+                       &q->s->runs[first + (size_t)k]))
+            return false;
+    return true;
+}
+
+static wf_csg program_of(const search *q, const wf_culled *part) {
+    return (wf_csg){q->culls->step + part->step, part->step_count, q->s->runs,
+                    q->culls->solid + part->solid, part->solid_count};
+}
+
+static bool try_part(search *q, const wf_culled *part) {
+    if (!make_part_runs(q, part, 0)) return false;
+    wf_csg csg = program_of(q, part);
+    if (part->solid_count == 1)
+        q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], q->hits);
+    else
+        q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
+    return true;
+}
+
+static double farthest(const search *q) {
+    double far = 0;
+    for (int i = 0; i < q->packet->rays.count; i++)
+        far = q->hits->s[i] > far ? q->hits->s[i] : far;
+    return far;
+}
+
+/* ---- Rays that start inside a union ---- */
+
+static bool starts_inside(search *q, const wf_culled *part, bool *inside) {
+    double start[WF_PACKET] = {0};
+    uint8_t in[WF_PACKET];
+    if (!make_part_runs(q, part, 0)) return false;
+    wf_csg csg = program_of(q, part);
+    q->t->csg->inside(&csg, start, q->s->in, in);
+    for (int i = 0; i < q->packet->rays.count; i++) *inside |= in[i];
+    return true;
+}
+
+/* All parts of one object as the union that they are. */
+static bool try_union(search *q, int object) {
+    const wf_culls *from = q->culls;
+    wf_culls whole = {0};
+    size_t steps = 1, solids = 1;
+    for (size_t n = 0; n < from->part_count; n++) {
+        if (q->t->parts[from->part[n].part].object != object) continue;
+        steps += (size_t)from->part[n].step_count;
+        solids += (size_t)from->part[n].solid_count;
+    }
+    whole.step = malloc(steps * sizeof *whole.step);
+    whole.solid = malloc(solids * sizeof *whole.solid);
+    whole.part = malloc(sizeof *whole.part);
+    wf_csg_entry *stack = aligned_alloc(64, (steps + 2) * sizeof *stack);
+    bool good = whole.step && whole.solid && whole.part && stack;
+    int operands = 0;
+    for (size_t n = 0; good && n < from->part_count; n++) {
+        const wf_culled *p = &from->part[n];
+        if (q->t->parts[p->part].object != object) continue;
+        for (int k = 0; k < p->step_count; k++) {
+            wf_step step = from->step[p->step + (size_t)k];
+            if (step.kind == WF_STEP_SOLID) step.count += (int)whole.solid_count;
+            whole.step[whole.step_count++] = step;
+        }
+        memcpy(whole.solid + whole.solid_count, from->solid + p->solid,
+               (size_t)p->solid_count * sizeof *whole.solid);
+        whole.solid_count += (size_t)p->solid_count;
+        operands++;
+    }
+    if (good) {
+        if (operands > 1) whole.step[whole.step_count++] = (wf_step){WF_STEP_UNION, operands};
+        wf_culled all = {0, 0, 0, 0, (int)whole.step_count, (int)whole.solid_count};
+        q->culls = &whole;
+        good = make_part_runs(q, &all, 0);
+        wf_csg csg = program_of(q, &all);
+        if (good) q->t->csg->nearest(&csg, q->rounding, stack, q->hits);
+        q->culls = from;
+    }
+    free(stack);
+    wf_culls_free(&whole);
+    return good;
+}
+
+/* The object, of several parts, that a ray starts inside of; -1: none. Rays start inside of one
+ * at most that matters: where two objects overlap each has its own surfaces. */
+static bool find_around(search *q, int after, int *object) {
+    int found = -1;
+    for (size_t n = 0; n < q->culls->part_count; n++) {
+        const wf_culled *part = &q->culls->part[n];
+        int of = q->t->parts[part->part].object;
+        bool inside = false;
+        if (part->near > 0 || of <= after || !q->t->sibling[of] || (found >= 0 && of >= found))
+            continue;
+        if (!starts_inside(q, part, &inside)) return false;
+        if (inside) found = of;
+    }
+    *object = found;
+    return true;
+}
+
+/* ---- Together ---- */
+
+static bool is_around(const int *around, int count, int object) {
+    for (int k = 0; k < count; k++)
+        if (around[k] == object) return true;
+    return false;
+}
+
+#define MOST_AROUND 8
+
+bool wf_nearest(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                const wf_culls *culls, bool whole, wf_hits *hits) {
+    search q = {.t = t, .s = s, .packet = packet, .culls = culls, .hits = hits};
+    int around[MOST_AROUND], count = 0, object = -1;
+    set_rounding(&q);
+    while (whole && count < MOST_AROUND) {
+        if (!find_around(&q, object, &object)) return false;
+        if (object < 0) break;
+        if (!try_union(&q, object)) return false;
+        around[count++] = object;
+    }
+    for (size_t n = 0; n < culls->part_count; n++) {
+        const wf_culled *part = &culls->part[n];
+        if (part->near > farthest(&q)) break;
+        if (count && is_around(around, count, t->parts[part->part].object)) continue;
+        if (!try_part(&q, part)) return false;
+    }
+    return true;
+}
