@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "filters/profile.h"
+
 static double sinc(double z) {
     return z == 0 ? 1 : sin(M_PI * z) / (M_PI * z);
 }
@@ -62,8 +64,7 @@ static double shaped_cell_uv(const wf_aperture *a, double u0, double u1, double 
 
 /* ---- Mitchell and Netravali's family ---- */
 
-/* Coefficients of 6 m(v) by powers of |v|, in |v| < 1 and 1 <= |v| < 2. */
-static void mitchell_poly(const wf_aperture *a, double near[4], double far[4]) {
+void wf_mitchell_poly(const wf_aperture *a, double near[4], double far[4]) {
     double b = a->parameter[0], c = a->parameter[1];
     double n[4] = {6 - 2 * b, 0, -18 + 12 * b + 6 * c, 12 - 9 * b - 6 * c};
     double f[4] = {8 * b + 24 * c, -12 * b - 48 * c, 6 * b + 30 * c, -b - 6 * c};
@@ -77,7 +78,7 @@ static double poly_integral(const double p[4], double s) {
 
 static double mitchell_integral(const wf_aperture *a, double v) {
     double near[4], far[4], s = fmin(fabs(v), 2);
-    mitchell_poly(a, near, far);
+    wf_mitchell_poly(a, near, far);
     double area = poly_integral(near, fmin(s, 1));
     if (s > 1) area += poly_integral(far, s) - poly_integral(far, 1);
     return copysign(area / 6, v);
@@ -86,7 +87,7 @@ static double mitchell_integral(const wf_aperture *a, double v) {
 static double mitchell_value(const wf_aperture *a, double v) {
     double near[4], far[4], s = fabs(v);
     if (s >= 2) return 0;
-    mitchell_poly(a, near, far);
+    wf_mitchell_poly(a, near, far);
     const double *p = s < 1 ? near : far;
     return (p[0] + s * (p[1] + s * (p[2] + s * p[3]))) / 6;
 }
@@ -213,41 +214,6 @@ static double mitchell_response(const wf_aperture *a, double tau, double fx, dou
     return sinc(fx) * vertical * sinc(tau * ft);
 }
 
-/* ---- Values ---- */
-
-static bool within(double z, double width) {
-    return fabs(z) <= width / 2;
-}
-
-static double line_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    (void)a;
-    return within(u, 1) && within(v, 1) && within(q, tau);
-}
-
-static double box_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    (void)a;
-    return within(u, 1) && within(v, 2) && within(q, tau);
-}
-
-static double notch_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    (void)a;
-    return within(u, 1) && within(q, tau) ? notch_f(v) : 0;
-}
-
-static double shaped_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    (void)a;
-    return fabs(u) < 2 * notch_f(v) && within(q, tau);
-}
-
-static double diamond_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    (void)a;
-    return within(u, 1) && fabs(v) + fabs(2 * q / tau) <= 1;
-}
-
-static double mitchell_h(const wf_aperture *a, double tau, double u, double v, double q) {
-    return within(u, 1) && within(q, tau) ? mitchell_value(a, v) : 0;
-}
-
 /* ---- The table (resampling.md, Apertures) ---- */
 
 static const wf_aperture_kind kinds[] = {
@@ -264,7 +230,7 @@ static const wf_aperture_kind kinds[] = {
      line_cell_v,
      NULL,
      line_response,
-     line_value},
+     WF_PROFILE_LINE},
     {"rotated",
      "1 pixel x 1 line, a whole frame long",
      "section 4",
@@ -278,7 +244,7 @@ static const wf_aperture_kind kinds[] = {
      line_cell_v,
      NULL,
      line_response,
-     line_value},
+     WF_PROFILE_LINE},
     {"box",
      "1 pixel x 2 lines",
      "Figure 6",
@@ -292,7 +258,7 @@ static const wf_aperture_kind kinds[] = {
      box_cell_v,
      NULL,
      box_response,
-     box_value},
+     WF_PROFILE_BOX},
     {"ccd",
      "1 pixel x 2 lines, a whole field long",
      "Figures 4 and 5",
@@ -306,7 +272,7 @@ static const wf_aperture_kind kinds[] = {
      box_cell_v,
      NULL,
      box_response,
-     box_value},
+     WF_PROFILE_BOX},
     {"notch",
      "1 pixel x the quadratic f over 4 lines",
      "section 5",
@@ -320,7 +286,7 @@ static const wf_aperture_kind kinds[] = {
      notch_cell_v,
      NULL,
      notch_response,
-     notch_value},
+     WF_PROFILE_NOTCH},
     {"shaped",
      "4 f(v) pixels wide over 4 lines",
      "Figure 9",
@@ -334,7 +300,7 @@ static const wf_aperture_kind kinds[] = {
      shaped_cell_v,
      NULL,
      shaped_response,
-     shaped_value},
+     WF_PROFILE_SHAPED},
     {"diamond",
      "1 pixel x a diamond over 2 lines and tau",
      "Figure 7",
@@ -348,7 +314,7 @@ static const wf_aperture_kind kinds[] = {
      diamond_cell_v,
      diamond_cell_vq,
      diamond_response,
-     diamond_value},
+     WF_PROFILE_DIAMOND},
     {"mitchell",
      "1 pixel x Mitchell and Netravali's cubic B,C over 4 lines",
      "section 5",
@@ -362,7 +328,7 @@ static const wf_aperture_kind kinds[] = {
      mitchell_cell_v,
      NULL,
      mitchell_response,
-     mitchell_h},
+     WF_PROFILE_MITCHELL},
 };
 
 const wf_aperture_kind *wf_aperture_at(size_t index) {
@@ -431,5 +397,7 @@ double wf_response(const wf_aperture *a, double tau, double fx, double fy, doubl
 }
 
 double wf_aperture_value(const wf_aperture *a, double tau, double u, double v, double q) {
-    return a->kind->value(a, tau, u, v, q);
+    double height, half_u;
+    wf_profiles_best()[a->kind->profile](a, tau, 1, &v, &q, &height, &half_u);
+    return fabs(q) <= tau / 2 && fabs(u) <= half_u ? height : 0;
 }

@@ -10,6 +10,17 @@ typedef enum wf_position { WF_START, WF_CENTER, WF_END } wf_position;
 
 typedef struct wf_aperture wf_aperture;
 
+/* How h depends on v, q and u: one height for all |u| <= half_u(v). */
+typedef enum wf_profile {
+    WF_PROFILE_LINE,
+    WF_PROFILE_BOX,
+    WF_PROFILE_NOTCH,
+    WF_PROFILE_SHAPED,
+    WF_PROFILE_DIAMOND,
+    WF_PROFILE_MITCHELL,
+    WF_PROFILES
+} wf_profile;
+
 /* One row of the aperture table: the mathematics of one name of resampling.md, as data. Lengths
  * are pixels (u), frame lines (v) and field periods (q), each from the aperture's centre. */
 typedef struct wf_aperture_kind {
@@ -28,8 +39,7 @@ typedef struct wf_aperture_kind {
     /* Integral over [v0,v1] x [q0,q1] where v and q are coupled; NULL otherwise. */
     double (*cell_vq)(double tau, double v0, double v1, double q0, double q1);
     double (*response)(const wf_aperture *a, double tau, double fx, double fy, double ft);
-    /* h(u, v, q) itself, unnormalised; tau > 0. */
-    double (*value)(const wf_aperture *a, double tau, double u, double v, double q);
+    wf_profile profile; /* of h itself */
 } wf_aperture_kind;
 
 struct wf_aperture {

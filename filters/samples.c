@@ -1,26 +1,13 @@
-#include "filters/samples.h"
+#include "filters/samples_inside.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "filters/isa.h"
+
 /* Samples this near to the instant count where the window is one (resampling.md, Apertures). */
 #define INSTANT 0x1p-12
-
-/* Sums of one pixel. */
-typedef struct pixel_sum {
-    double r, g, b, weight;
-} pixel_sum;
-
-struct wf_gather {
-    wf_gather_desc desc;
-    int64_t field;
-    int parity, line_step, field_lines; /* of the field */
-    int first, end;                     /* lines held */
-    double tau, middle,
-        skew_a_line; /* field periods; middle: of the window, from the instant */
-    pixel_sum *sum;  /* [end - first][width] */
-};
 
 /* ---- Windows ---- */
 
@@ -70,7 +57,7 @@ void wf_gather_lines(const wf_gather_desc *d, int64_t field, double y0, double y
 /* ---- Life ---- */
 
 size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
-    return (size_t)lines * (size_t)d->raster->width_px * sizeof(pixel_sum);
+    return (size_t)lines * (size_t)d->raster->width_px * sizeof(wf_pixel_sum);
 }
 
 wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int end) {
@@ -82,6 +69,7 @@ wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int 
     g->field_lines = wf_raster_field_lines(d->raster, g->parity);
     g->tau = wf_ratio_value(d->width);
     g->middle = middle_of(d);
+    g->half = half_window(d);
     g->skew_a_line = skew_of(d) / d->raster->lines;
     g->sum = calloc(1, wf_gather_bytes(d, end - first) + 1);
     if (g->sum) return g;
@@ -95,77 +83,22 @@ void wf_gather_free(wf_gather *g) {
     free(g);
 }
 
-static pixel_sum *line_sums(const wf_gather *g, int line) {
+static wf_pixel_sum *line_sums(const wf_gather *g, int line) {
     return g->sum + (size_t)(line - g->first) * (size_t)g->desc.raster->width_px;
 }
 
 /* ---- Adding ---- */
 
-typedef struct one_sample {
-    double x, y, t; /* t: from the field's instant */
-    double r, g, b, weight;
-} one_sample;
-
-static one_sample sample_at(const wf_gather *g, const wf_samples *s, size_t i) {
-    double apart = instants_apart(&g->desc, s->field, g->field);
-    return (one_sample){.x = (double)s->x[i],
-                        .y = (double)s->y[i],
-                        .t = (double)s->t[i] - apart,
-                        .r = (double)s->rgb[0][i],
-                        .g = (double)s->rgb[1][i],
-                        .b = (double)s->rgb[2][i],
-                        .weight = s->weight ? (double)s->weight[i] : 1};
-}
-
-static void add_to_pixel(pixel_sum *sum, const one_sample *s, double h) {
-    double w = h * s->weight;
-    sum->r += w * s->r;
-    sum->g += w * s->g;
-    sum->b += w * s->b;
-    sum->weight += w;
-}
-
-/* h at q from the window's middle; an instant's aperture has only u and v, and the diamond's is
- * then the tent that it tends to. */
-static double value_at(const wf_gather *g, double u, double v, double q) {
-    const wf_aperture *a = &g->desc.aperture;
-    if (g->tau > 0) return wf_aperture_value(a, g->tau, u, v, q);
-    if (a->kind->couples_vq) return fabs(u) <= 0.5 && fabs(v) < 1 ? 1 - fabs(v) : 0;
-    return wf_aperture_value(a, 1, u, v, 0);
-}
-
-static void add_to_line(wf_gather *g, const one_sample *s, int line, int from, int to) {
-    int j = g->parity + line * g->line_step;
-    double v = s->y - (j + 0.5), q = s->t - g->skew_a_line * j - g->middle;
-    if (fabs(q) > (g->tau > 0 ? g->tau / 2 : INSTANT)) return;
-    pixel_sum *sum = line_sums(g, line);
-    for (int i = from; i <= to; i++) {
-        double h = value_at(g, s->x - (i + 0.5), v, q);
-        if (h != 0) add_to_pixel(&sum[i], s, h);
-    }
-}
-
-static int clamp_pixel(double x, int least, int most) {
-    return x <= least ? least : x >= most ? most : (int)x;
-}
-
-static void add_sample(wf_gather *g, const one_sample *s) {
-    double reach = g->desc.aperture.kind->reach_u;
-    int width = g->desc.raster->width_px, first, end;
-    if (!(fabs(s->x) < 1e9 && fabs(s->y) < 1e9 && fabs(s->t) < 1e15)) return;
-    int from = clamp_pixel(ceil(s->x - 0.5 - reach), 0, width);
-    int to = clamp_pixel(floor(s->x - 0.5 + reach), -1, width - 1);
-    wf_gather_lines(&g->desc, g->field, s->y, s->y, &first, &end);
-    if (first < g->first) first = g->first;
-    if (end > g->end) end = g->end;
-    for (int line = first; line < end; line++) add_to_line(g, s, line, from, to);
-}
+static wf_gather_fn *const levels[] = {
+    wf_gather_samples_v1,
+#if defined(__x86_64__)
+    wf_gather_samples_v3,
+    wf_gather_samples_v4,
+#endif
+};
 
 void wf_gather_add(wf_gather *g, const wf_samples *samples) {
-    for (size_t i = 0; i < samples->count; i++) {
-        one_sample s = sample_at(g, samples, i);
-        add_sample(g, &s);
-    }
+    levels[wf_isa_levels() - 1](g, samples, instants_apart(&g->desc, samples->field, g->field));
 }
 
 void wf_gather_merge(wf_gather *g, const wf_gather *from) {
@@ -173,8 +106,8 @@ void wf_gather_merge(wf_gather *g, const wf_gather *from) {
     int first = g->first > from->first ? g->first : from->first;
     int end = g->end < from->end ? g->end : from->end;
     for (int line = first; line < end; line++) {
-        pixel_sum *to = line_sums(g, line);
-        const pixel_sum *add = line_sums(from, line);
+        wf_pixel_sum *to = line_sums(g, line);
+        const wf_pixel_sum *add = line_sums(from, line);
         for (size_t i = 0; i < width; i++) {
             to[i].r += add[i].r;
             to[i].g += add[i].g;
@@ -187,7 +120,7 @@ void wf_gather_merge(wf_gather *g, const wf_gather *from) {
 /* ---- Finishing ---- */
 
 int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
-    const pixel_sum *sum = line_sums(g, line);
+    const wf_pixel_sum *sum = line_sums(g, line);
     int empty = -1;
     for (int i = 0; i < g->desc.raster->width_px; i++) {
         bool reached = sum[i].weight != 0;
@@ -202,7 +135,7 @@ int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
 
 /* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
 static int nearest_in_line(const wf_gather *g, int line, int pixel) {
-    const pixel_sum *sum = line_sums(g, line);
+    const wf_pixel_sum *sum = line_sums(g, line);
     int width = g->desc.raster->width_px;
     for (int d = 0; d < width; d++) {
         if (pixel - d >= 0 && sum[pixel - d].weight != 0) return pixel - d;
@@ -212,7 +145,7 @@ static int nearest_in_line(const wf_gather *g, int line, int pixel) {
 }
 
 bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
-    const pixel_sum *best = NULL;
+    const wf_pixel_sum *best = NULL;
     double best_distance = HUGE_VAL;
     for (int l = g->first; l < g->end; l++) {
         double down = (double)(l - line) * g->line_step;

@@ -1,0 +1,28 @@
+#ifndef WF_FILTERS_SAMPLES_INSIDE_H
+#define WF_FILTERS_SAMPLES_INSIDE_H
+
+#include "filters/samples.h"
+
+/* Between samples.c and the loops compiled for each instruction set. */
+
+/* Sums of one pixel. */
+typedef struct wf_pixel_sum {
+    double r, g, b, weight;
+} wf_pixel_sum;
+
+struct wf_gather {
+    wf_gather_desc desc;
+    int64_t field;
+    int parity, line_step, field_lines; /* of the field */
+    int first, end;                     /* lines held */
+    double tau, middle, half;           /* of the window, field periods from the instant */
+    double skew_a_line;
+    wf_pixel_sum *sum; /* [end - first][width] */
+};
+
+/* Adds samples; apart: instants from the field that they count in to the gather's. */
+typedef void wf_gather_fn(wf_gather *gather, const wf_samples *samples, double apart);
+
+wf_gather_fn wf_gather_samples_v1, wf_gather_samples_v3, wf_gather_samples_v4;
+
+#endif
