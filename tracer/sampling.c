@@ -1,0 +1,320 @@
+#include "tracer/sampling.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tiles of cells: what can be seen in one is looked for once. */
+#define TILE_WIDTH  16
+#define TILE_HEIGHT 8
+
+struct wf_sampling {
+    wf_sampling_desc desc;
+    wf_tracer *tracer;
+    wf_sampler *sampler;
+    wf_raster raster;
+    double tau, skew, anchor;
+    bool periods; /* units are field periods */
+    int64_t unit, field;
+    double start; /* of the unit's window, field periods from the field's instant */
+};
+
+struct wf_sampling_scratch {
+    wf_trace_scratch *trace;
+    size_t room; /* samples */
+    float *x, *y, *f, *t, *rgb[3];
+    double *trace_x, *trace_y, *trace_f;
+};
+
+/* ---- Life ---- */
+
+static double anchor_of(wf_position position) {
+    static const double anchors[] = {[WF_START] = 0, [WF_CENTER] = 0.5, [WF_END] = 1};
+    return anchors[position];
+}
+
+static wf_rational period_of(const wf_sampling *s) {
+    return wf_raster_field_period(&s->raster);
+}
+
+static bool make_parts(wf_sampling *s) {
+    const wf_raster *r = &s->raster;
+    const wf_view view = {r->width_px, r->lines, wf_ratio_value(r->pixel_aspect),
+                          wf_ratio_value(period_of(s))};
+    s->tracer = wf_tracer_new(s->desc.scene, &view);
+    s->sampler = wf_sampler_new(s->desc.sampler, s->desc.count, s->desc.seed);
+    return s->tracer && s->sampler;
+}
+
+wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
+    wf_sampling *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->desc = *desc;
+    s->raster = *desc->gather.raster;
+    s->tau = wf_ratio_value(desc->gather.width);
+    s->skew = wf_ratio_given(desc->gather.skew) ? wf_ratio_value(desc->gather.skew) : 0;
+    s->anchor = anchor_of(desc->gather.position);
+    if (!make_parts(s)) {
+        wf_sampling_free(s);
+        return NULL;
+    }
+    /* A sample that two fields share would be at two fractions of their windows. */
+    s->periods = s->tau > 1 && !wf_tracer_own_widths(s->tracer);
+    return s;
+}
+
+void wf_sampling_free(wf_sampling *s) {
+    if (!s) return;
+    wf_tracer_free(s->tracer);
+    wf_sampler_free(s->sampler);
+    free(s);
+}
+
+wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *s) {
+    wf_sampling_scratch *c = calloc(1, sizeof *c);
+    if (!c) return NULL;
+    c->room = TILE_WIDTH * (size_t)s->desc.count;
+    float **const floats[] = {&c->x, &c->y, &c->f, &c->t, &c->rgb[0], &c->rgb[1], &c->rgb[2]};
+    double **const doubles[] = {&c->trace_x, &c->trace_y, &c->trace_f};
+    bool room = (c->trace = wf_trace_scratch_new(s->tracer)) != NULL;
+    for (size_t n = 0; n < sizeof floats / sizeof *floats; n++)
+        room = (*floats[n] = malloc(c->room * sizeof(float))) && room;
+    for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++)
+        room = (*doubles[n] = malloc(c->room * sizeof(double))) && room;
+    if (room) return c;
+    wf_sampling_scratch_free(c);
+    return NULL;
+}
+
+void wf_sampling_scratch_free(wf_sampling_scratch *c) {
+    if (!c) return;
+    wf_trace_scratch_free(c->trace);
+    float *const floats[] = {c->x, c->y, c->f, c->t, c->rgb[0], c->rgb[1], c->rgb[2]};
+    double *const doubles[] = {c->trace_x, c->trace_y, c->trace_f};
+    for (size_t n = 0; n < sizeof floats / sizeof *floats; n++) free(floats[n]);
+    for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++) free(doubles[n]);
+    free(c);
+}
+
+wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *c) {
+    return wf_trace_counted(c->trace);
+}
+
+/* ---- Units of time ---- */
+
+/* Instants are those of fields; both fields of a segmented frame have one. */
+static int64_t instant_of(const wf_sampling *s, int64_t field) {
+    return s->raster.scan == WF_SEGMENTED ? field / 2 : field;
+}
+
+static int64_t field_of(const wf_sampling *s, int64_t instant) {
+    return s->raster.scan == WF_SEGMENTED ? 2 * instant : instant;
+}
+
+void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int64_t *last) {
+    *first = *last = instant_of(s, field);
+    if (s->periods) *last += (int64_t)ceil(s->tau + s->skew) - 1;
+}
+
+static bool look(wf_sampling *s, wf_rational base_s, double width, double anchor) {
+    const wf_window_of_time window = {
+        .base_s = base_s,
+        .width_fields = width,
+        .anchor = anchor,
+        .late_s = s->periods ? 0 : s->skew * wf_ratio_value(period_of(s))};
+    return wf_tracer_look(s->tracer, &window, s->desc.skip);
+}
+
+/* Periods begin where windows do: before their instants where these are in the middle or at the
+ * end. Times are of the field whose instant the unit's number counts. */
+bool wf_sampling_look(wf_sampling *s, int64_t unit) {
+    wf_rational period = period_of(s), base = wf_ratio(unit * period.num, period.den);
+    s->unit = unit;
+    s->field = field_of(s, unit);
+    s->start = -s->anchor * s->tau;
+    return s->periods ? look(s, base, 1, -s->start) : look(s, base, s->tau, s->anchor);
+}
+
+/* ---- Rows ---- */
+
+/* What a row's samples are drawn for: times from..to field periods after the field's instant,
+ * and how late its own instant is. */
+typedef struct row_time {
+    double from, to, late;
+} row_time;
+
+/* Whether a sample at y, q from a window's middle is within an aperture of any line: the
+ * diamonds leave gaps between them. */
+static bool within_reach(const wf_sampling *s, double y, double t) {
+    const wf_aperture *a = &s->desc.gather.aperture;
+    if (!a->kind->couples_vq || !(s->tau > 0) || s->skew > 0 || s->periods) return true;
+    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, s->field);
+    double q = t - s->start - s->tau / 2;
+    for (int l = (int)floor((y - parity) / step) - 1, n = 0; n < 3; n++, l++)
+        if (wf_aperture_value(a, s->tau, 0, y - (parity + l * step + 0.5), q) != 0) return true;
+    return false;
+}
+
+typedef struct tile {
+    const wf_sampling *s;
+    wf_sampling_scratch *c;
+    int x0, x1;
+    wf_sampling_emit_fn *emit;
+    void *user;
+} tile;
+
+static float inside(float v, int cell) {
+    float at = (float)cell + v, end = (float)(cell + 1);
+    return at < end ? at : nextafterf(end, 0);
+}
+
+/* The samples of a row's cells within the tile; set: which of several. */
+static size_t draw_cells(const tile *t, int row, row_time time, int set) {
+    wf_sampling_scratch *c = t->c;
+    size_t n = 0, count = (size_t)t->s->desc.count;
+    for (int i = t->x0; i < t->x1; i++) {
+        size_t first = n;
+        wf_sampler_draw(t->s->sampler, (wf_cell){t->s->unit, i, row, set}, c->x + first,
+                        c->y + first, c->f + first);
+        for (size_t k = first; k < first + count; k++) {
+            double at = time.from + (double)c->f[k] * (time.to - time.from);
+            c->x[n] = inside(c->x[k], i);
+            c->y[n] = inside(c->y[k], row);
+            c->t[n] = (float)at;
+            c->trace_x[n] = (double)c->x[n];
+            c->trace_y[n] = (double)c->y[n];
+            c->trace_f[n] = (double)c->f[k];
+            if (t->s->tau > 0 && !t->s->periods)
+                c->trace_f[n] = (at - time.late - t->s->start) / t->s->tau;
+            n += within_reach(t->s, c->trace_y[n], at);
+        }
+    }
+    return n;
+}
+
+static bool trace_cells(const tile *t, int row, row_time time, int set) {
+    wf_sampling_scratch *c = t->c;
+    size_t count = draw_cells(t, row, time, set);
+    const wf_trace_samples traced = {
+        .count = count,
+        .x = c->trace_x,
+        .y = c->trace_y,
+        .f = c->trace_f,
+        .late_s = t->s->periods ? 0 : time.late * wf_ratio_value(period_of(t->s)),
+        .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+    if (!wf_trace(t->s->tracer, c->trace, &traced)) return false;
+    const wf_samples samples = {.count = count,
+                                .x = c->x,
+                                .y = c->y,
+                                .t = c->t,
+                                .field = t->s->field,
+                                .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+    if (count) t->emit(t->user, &samples);
+    return true;
+}
+
+/* Field lines that a row's samples can reach: first <= l < end. */
+static void lines_of(const wf_sampling *s, int row, int *first, int *end) {
+    wf_gather_lines(&s->desc.gather, s->field, row, row + 1, first, end);
+    double reach = s->desc.gather.aperture.kind->reach_v;
+    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, s->field);
+    /* Lines that only the row's very edge touches need no samples of it. */
+    while (*first < *end && parity + *first * step + 0.5 + reach <= row) ++*first;
+    while (*first < *end && parity + (*end - 1) * step + 0.5 - reach >= row + 1) --*end;
+}
+
+static double late_of(const wf_sampling *s, double line) {
+    return s->skew * line / s->raster.lines;
+}
+
+/* An instant that goes down the picture is another one for each line. */
+static bool trace_instants(const tile *t, int row, int first, int end) {
+    int step = wf_raster_line_step(&t->s->raster);
+    int parity = wf_raster_parity(&t->s->raster, t->s->field);
+    for (int l = first; l < end; l++) {
+        double late = late_of(t->s, parity + l * step);
+        if (!trace_cells(t, row, (row_time){late, late, late}, l - first)) return false;
+    }
+    return true;
+}
+
+static bool trace_row(const tile *t, int row) {
+    const wf_sampling *s = t->s;
+    int first, end, step = wf_raster_line_step(&s->raster);
+    int parity = wf_raster_parity(&s->raster, s->field);
+    if (s->periods) return trace_cells(t, row, (row_time){s->start, s->start + 1, 0}, 0);
+    lines_of(s, row, &first, &end);
+    if (first >= end) return true;
+    if (s->skew > 0 && !(s->tau > 0)) return trace_instants(t, row, first, end);
+    double low = late_of(s, parity + first * step),
+           high = late_of(s, parity + (end - 1) * step);
+    row_time time = {s->start + low, s->start + s->tau + high, (low + high) / 2};
+    return trace_cells(t, row, time, 0);
+}
+
+static bool trace_tile(const tile *t, int first, int end) {
+    const double x[2] = {t->x0, t->x1}, y[2] = {first, end};
+    wf_trace_tile found;
+    if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &found)) return false;
+    for (int row = first; row < end; row++)
+        if (!trace_row(t, row)) return false;
+    return true;
+}
+
+bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int first, int end,
+                      wf_sampling_emit_fn *emit, void *user) {
+    int width = s->raster.width_px;
+    for (int row = first; row < end; row += TILE_HEIGHT)
+        for (int x = 0; x < width; x += TILE_WIDTH) {
+            int last = row + TILE_HEIGHT < end ? row + TILE_HEIGHT : end;
+            tile t = {s,    scratch, x, x + TILE_WIDTH < width ? x + TILE_WIDTH : width,
+                      emit, user};
+            if (!trace_tile(&t, row, last)) return false;
+        }
+    return true;
+}
+
+/* ---- Subframes ---- */
+
+bool wf_sampling_subframe(wf_sampling *s, wf_rational time_s) {
+    const wf_window_of_time window = {.base_s = time_s};
+    return wf_tracer_look(s->tracer, &window, s->desc.skip);
+}
+
+/* Samples are taken at the middles of the picture's own pixels. */
+static bool trace_stretch(const wf_sampling *s, wf_sampling_scratch *c, const double cell[2],
+                          int first, int count, int row, float *rgb) {
+    const wf_trace_samples traced = {.count = (size_t)count,
+                                     .x = c->trace_x,
+                                     .y = c->trace_y,
+                                     .f = c->trace_f,
+                                     .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+    for (int i = 0; i < count; i++) {
+        c->trace_x[i] = (first + i + 0.5) * cell[0];
+        c->trace_y[i] = (row + 0.5) * cell[1];
+        c->trace_f[i] = 0;
+    }
+    if (!wf_trace(s->tracer, c->trace, &traced)) return false;
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) rgb[3 * (first + i) + k] = c->rgb[k][i];
+    return true;
+}
+
+bool wf_sampling_subframe_rows(const wf_sampling *s, wf_sampling_scratch *c, int across,
+                               int down, int first, int end, float *rgb) {
+    const double cell[2] = {(double)s->raster.width_px / across,
+                            (double)s->raster.lines / down};
+    int most = c->room < 256 ? (int)c->room : 256;
+    for (int x = 0; x < across; x += most) {
+        int count = across - x < most ? across - x : most;
+        const double xs[2] = {x * cell[0], (x + count) * cell[0]};
+        const double ys[2] = {first * cell[1], end * cell[1]};
+        wf_trace_tile found;
+        if (!wf_trace_prepare(s->tracer, c->trace, xs, ys, &found)) return false;
+        for (int row = first; row < end; row++)
+            if (!trace_stretch(s, c, cell, x, count, row,
+                               rgb + (size_t)(row - first) * 3 * (size_t)across))
+                return false;
+    }
+    return true;
+}

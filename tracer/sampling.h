@@ -1,0 +1,55 @@
+#ifndef WF_TRACER_SAMPLING_H
+#define WF_TRACER_SAMPLING_H
+
+#include "filters/samples.h"
+#include "tracer/sampler.h"
+#include "tracer/tracer.h"
+
+/* Samples of a scene where the apertures of its fields are: in their windows of time, on the
+ * lines that they reach, shared by all apertures that reach them. */
+
+typedef struct wf_sampling_desc {
+    const wf_scene *scene;
+    wf_gather_desc gather; /* how fields look */
+    wf_sampler_kind sampler;
+    int count; /* samples a pixel, frame line and field */
+    uint64_t seed;
+    bool skip;
+} wf_sampling_desc;
+
+/* One unit of time after another is looked at; between two looks any number of threads draws
+ * bands of it. A unit is the window of one field, or, where windows are longer than a field and
+ * overlap, one field period. */
+typedef struct wf_sampling wf_sampling;
+typedef struct wf_sampling_scratch wf_sampling_scratch;
+
+/* desc is copied; what it points at must outlive the sampling. NULL: no memory. */
+wf_sampling *wf_sampling_new(const wf_sampling_desc *desc);
+void wf_sampling_free(wf_sampling *sampling);
+
+/* Units first <= u <= *last that a field needs. */
+void wf_sampling_units(const wf_sampling *sampling, int64_t field, int64_t *first,
+                       int64_t *last);
+
+/* Turns to a unit. False: no memory. */
+bool wf_sampling_look(wf_sampling *sampling, int64_t unit);
+
+wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *sampling);
+void wf_sampling_scratch_free(wf_sampling_scratch *scratch);
+
+/* Frame rows first <= j < end of the unit: hands their samples to emit, block after block, cell
+ * by cell, rows from the top and pixels from the left within blocks of rows. False: no memory.
+ */
+typedef void wf_sampling_emit_fn(void *user, const wf_samples *samples);
+bool wf_sampling_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch, int first,
+                      int end, wf_sampling_emit_fn *emit, void *user);
+
+wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *scratch);
+
+/* One subframe: samples in a regular grid at an instant, rows first <= j < end of a picture of
+ * `across` x `down` of them, scene-linear, [end - first][across][3]. */
+bool wf_sampling_subframe(wf_sampling *sampling, wf_rational time_s);
+bool wf_sampling_subframe_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch,
+                               int across, int down, int first, int end, float *rgb);
+
+#endif
