@@ -26,7 +26,8 @@ typedef struct wf_cmd {
     weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
 } wf_cmd;
 
-extern const wf_cmd wf_cmd_convert, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info;
+extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_filters, wf_cmd_rasters,
+    wf_cmd_info;
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
  * job. Operands are moved to the front of argv; *operand_count says how many. --name value,

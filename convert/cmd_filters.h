@@ -19,8 +19,8 @@ wf_aperture wf_filters_example(const wf_aperture_kind *kind, char *name);
 
 double wf_filters_tau(const wf_filters_query *query, const wf_aperture *aperture);
 
-/* Decibels of a response. What rounding leaves of a zero (below 1e-14, -280 dB) is taken for one:
- * zero_db is returned. */
+/* Decibels of a response. What rounding leaves of a zero (below 1e-14, -280 dB) is taken for
+ * one: zero_db is returned. */
 double wf_filters_db(double value, double zero_db);
 
 void wf_filters_print(const wf_filters_query *query);

@@ -17,11 +17,13 @@ weft_job *weft_job_new(void) {
 
 void weft_job_free(weft_job *job) {
     if (!job) return;
-    char *const texts[] = {job->output, job->frames, job->layer,    job->part,
-                           job->ocio,   job->from,   job->to,       job->display,
-                           job->view,   job->look,   job->timecode, job->report};
+    char *const texts[] = {job->output,   job->frames, job->layer,     job->part, job->ocio,
+                           job->from,     job->to,     job->display,   job->view, job->look,
+                           job->timecode, job->report, job->oversample};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);
     for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
+    for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);
+    free(job->params);
     free(job->inputs);
     free(job);
 }
@@ -50,6 +52,13 @@ weft_status weft_job_set_output(weft_job *job, const char *path, weft_error *err
     return WEFT_OK;
 }
 
+static const char *const command_names[] = {
+    [WF_CONVERT] = "convert", [WF_RENDER] = "render", [WF_TRACE] = "trace"};
+
+const char *wf_command_name(wf_command command) {
+    return command_names[command];
+}
+
 void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user) {
     job->progress = fn;
     job->progress_user = user;
@@ -58,6 +67,18 @@ void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user) {
 void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user) {
     job->warning = fn;
     job->warning_user = user;
+}
+
+weft_status weft_job_set_command(weft_job *job, const char *name, weft_error *err) {
+    for (size_t i = 0; i < sizeof command_names / sizeof *command_names; i++)
+        if (!strcmp(command_names[i], name)) {
+            job->command = (wf_command)i;
+            return WEFT_OK;
+        }
+    return wf_fail(err, WEFT_USAGE,
+                   "'%.200s' is no command of jobs; there are convert, render "
+                   "and trace",
+                   name);
 }
 
 void weft_job_cancel(weft_job *job) {
@@ -86,6 +107,12 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
         bool wrong;
         const char *says;
     } rules[] = {
+        {!job->input_count && job->command != WF_CONVERT,
+         "no scene; give one, such as examples/scenes/carousel.lua"},
+        {job->input_count > 1 && job->command != WF_CONVERT,
+         "one scene at a time; others can be taken in by its include"},
+        {job->command == WF_TRACE && wf_ratio_given(job->error),
+         "--error is for render: samples that are written are as many everywhere"},
         {!job->input_count,
          "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
          "directory"},

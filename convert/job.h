@@ -8,6 +8,7 @@
 #include "convert/source.h"
 #include "filters/aperture.h"
 #include "filters/raster.h"
+#include "tracer/sampler.h"
 
 typedef enum wf_fit { WF_FIT_STRETCH, WF_FIT_CROP, WF_FIT_PAD } wf_fit;
 typedef enum wf_on_missing {
@@ -15,11 +16,15 @@ typedef enum wf_on_missing {
     WF_MISSING_HOLD,
     WF_MISSING_BLACK
 } wf_on_missing;
+typedef enum wf_on_empty { WF_EMPTY_ERROR, WF_EMPTY_NEAREST } wf_on_empty;
 typedef enum wf_code_range { WF_RANGE_UNSET, WF_RANGE_NARROW, WF_RANGE_FULL } wf_code_range;
+
+typedef enum wf_command { WF_CONVERT, WF_RENDER, WF_TRACE } wf_command;
 
 /* Everything a conversion was asked for; convert/options.c fills it, one table row an option.
  * Strings are owned by the job. */
 struct weft_job {
+    wf_command command;
     char **inputs;
     size_t input_count;
     char *output;
@@ -45,6 +50,17 @@ struct weft_job {
     wf_chroma chroma;
     wf_legalize legalize;
 
+    wf_sampler_kind sampler;
+    int64_t samples; /* a pixel, frame line and field */
+    int64_t seed;
+    wf_rational error; /* RMS, display-encoded; {0,0}: none asked for */
+    char *oversample;  /* "SxLxT"; NULL: none */
+    int64_t scene_steps;
+    size_t scene_memory_bytes;
+    char **params; /* "NAME=VALUE" of --set */
+    size_t param_count;
+    wf_on_empty on_empty;
+
     char *timecode;
     wf_on_missing on_missing;
     wf_nan_fix nan_fix;
@@ -61,6 +77,9 @@ struct weft_job {
     volatile sig_atomic_t cancelled;
     char *report; /* JSON of the last run */
 };
+
+/* "convert", "render", "trace". */
+const char *wf_command_name(wf_command command);
 
 /* Sends a message to the job's warning function. */
 void wf_job_warn(const weft_job *job, const char *format, ...)

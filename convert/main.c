@@ -10,8 +10,8 @@
 #include "convert/fail.h"
 #include "filters/near.h"
 
-static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_filters, &wf_cmd_rasters,
-                                         &wf_cmd_info};
+static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_render,  &wf_cmd_trace,
+                                         &wf_cmd_filters, &wf_cmd_rasters, &wf_cmd_info};
 
 #define COMMANDS (sizeof commands / sizeof *commands)
 
@@ -26,6 +26,8 @@ static void help(FILE *to) {
     fputs("\nA first conversion, of a render with eight pictures to a field, to 525-line "
           "video:\n\n"
           "  weft convert shot.####.exr --subframe-rate 480000/1001 -o shot.y4m\n\n"
+          "and a first render, of a scene that comes along:\n\n"
+          "  weft render examples/scenes/carousel.lua --frames 0-9 -o carousel.y4m\n\n"
           "'weft COMMAND --help' says what a command takes; 'weft --version' which weft this "
           "is.\n",
           to);

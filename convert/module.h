@@ -3,8 +3,8 @@
 
 #include "convert/fail.h"
 
-/* OpenImageIO costs 0.4 s and 120 MB to load, OpenColorIO and Cairo some milliseconds: more than
- * many a job takes. Each is behind a module that is loaded when the first job needs it:
+/* OpenImageIO costs 0.4 s and 120 MB to load, OpenColorIO and Cairo some milliseconds: more
+ * than many a job takes. Each is behind a module that is loaded when the first job needs it:
  * weft/weft-NAME.so beside the library, or in the directory the build was configured to install
  * to. Modules stay loaded. *symbol_out receives the address of symbol. Any thread. */
 weft_status wf_module_symbol(const char *name, const char *symbol, void **symbol_out,

@@ -153,6 +153,40 @@ static weft_status set_threads(weft_job *job, const option_row *row, const char 
     return WEFT_OK;
 }
 
+static weft_status set_whole(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    wf_rational number;
+    if (!parse_within(row, value, false, &number) || number.den != 1)
+        return refuse_number(row, value, err);
+    *(int64_t *)member(job, row) = number.num;
+    return WEFT_OK;
+}
+
+/* Several may be given; of one name the last counts. */
+static weft_status set_param(weft_job *job, const option_row *row, const char *value,
+                             weft_error *err) {
+    const char *equals = strchr(value, '=');
+    if (!equals || equals == value)
+        return refuse(row, value, "NAME=VALUE, which the scene reads as param.NAME", err);
+    char **grown = realloc(job->params, (job->param_count + 1) * sizeof *grown);
+    if (grown) job->params = grown;
+    char *copy = grown ? strdup(value) : NULL;
+    if (!copy) return wf_fail(err, WEFT_NO_MEMORY, "--%s: out of memory", row->shown.name);
+    job->params[job->param_count++] = copy;
+    return WEFT_OK;
+}
+
+/* Looked at when the raster is known. */
+static weft_status set_oversample(weft_job *job, const option_row *row, const char *value,
+                                  weft_error *err) {
+    int across, down, times;
+    if (wf_parse_oversample(value, &across, &down, &times))
+        return set_text(job, row, value, err);
+    return refuse(
+        row, value,
+        "SxLxT, samples a pixel, a line and a field, each from 1 to 64, such as 4x4x8", err);
+}
+
 static weft_status set_raster(weft_job *job, const option_row *row, const char *value,
                               weft_error *err) {
     char why[512];
@@ -215,7 +249,8 @@ static weft_status set_frames(weft_job *job, const option_row *row, const char *
 /* ---- The table (cli.md) ---- */
 
 static const char shape[] = "Raster and aperture", timing[] = "Time", input[] = "Input",
-                  color[] = "Color", codes[] = "Codes", running[] = "Running";
+                  color[] = "Color", codes[] = "Codes", running[] = "Running",
+                  scene[] = "Scene and samples";
 
 #define ROW(group, name, takes, preset, help, set_, ...)                                       \
     { {name, takes, preset, help, group}, .set = set_, __VA_ARGS__ }
@@ -275,6 +310,31 @@ static const option_row rows[] = {
     ROW(input, "fix-nan", "box3|black|none|error", "box3",
         "What NaN and Inf become: the mean of finite neighbours, black, themselves, an error.",
         set_choice, AT(nan_fix), INITIAL),
+
+    ROW(input, "on-empty", "error|nearest", "error",
+        "What to do about pixels that no sample of a sample buffer reached.", set_choice,
+        AT(on_empty), INITIAL),
+
+    ROW(scene, "samples", "N", "64",
+        "Samples a pixel, frame line and field, shared by all apertures that reach them.",
+        set_whole, AT(samples), FROM(1, 65536, ", whole, such as 64"), INITIAL),
+    ROW(scene, "sampler", "jitter|sobol|grid", "sobol",
+        "Where they lie: in jittered strata, an Owen-scrambled Sobol set, or a grid.",
+        set_choice, AT(sampler), INITIAL),
+    ROW(scene, "seed", "N", "0", "Another number gives other samples.", set_whole, AT(seed),
+        FROM(0, 9007199254740992, ", whole"), INITIAL),
+    ROW(scene, "error", "E", NULL,
+        "Instead of a number of samples: the RMS error to reach, in display-encoded units.",
+        set_ratio, AT(error), FROM(0.0001, 1, ", such as 0.005")),
+    ROW(scene, "oversample", "SxLxT", NULL,
+        "Write subframes with S samples a pixel, L a line and T a field, not deep pictures.",
+        set_oversample, AT(oversample)),
+    ROW(scene, "set", "NAME=VALUE", NULL, "A value that the scene reads as param.NAME.",
+        set_param),
+    ROW(scene, "scene-steps", "N", "200000000", "How many steps the scene's script may take.",
+        set_whole, AT(scene_steps), FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
+    ROW(scene, "scene-memory", "SIZE", "1G", "How much memory the scene may take.", set_size,
+        AT(scene_memory_bytes), INITIAL),
 
     ROW(color, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.", set_text,
         AT(ocio)),

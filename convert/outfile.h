@@ -3,14 +3,15 @@
 
 #include "convert/fail.h"
 
-/* A file that appears at its final name whole or not at all: written without a name (O_TMPFILE) or
- * beside the final one, synced, then linked or renamed. Errors stick: after the first failed write
- * every call returns the same failure. One thread at a time. */
+/* A file that appears at its final name whole or not at all: written without a name (O_TMPFILE)
+ * or beside the final one, synced, then linked or renamed. Errors stick: after the first failed
+ * write every call returns the same failure. One thread at a time. */
 typedef struct wf_outfile wf_outfile;
 
 /* "-" is standard output, which is written as it comes. An existing file is an error unless
  * overwrite. */
-weft_status wf_outfile_open(const char *path, bool overwrite, wf_outfile **out, weft_error *err);
+weft_status wf_outfile_open(const char *path, bool overwrite, wf_outfile **out,
+                            weft_error *err);
 weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes, weft_error *err);
 weft_status wf_outfile_commit(wf_outfile *file, weft_error *err); /* frees file in any case */
 void wf_outfile_abandon(wf_outfile *file);

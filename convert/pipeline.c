@@ -3,7 +3,6 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Fields are finished in groups, so that a picture that does not change is inflated once a
  * group and threads meet seldom; but a group's sums must come from the caches when they are
@@ -13,12 +12,6 @@
 /* Sums carried from group to group, where windows overlap; beyond this subframes are read
  * again. */
 #define CARRIED_BYTES ((size_t)128 << 20)
-
-double wf_now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 void wf_worker_fail(wf_pipeline *p, wf_worker *worker, weft_status status) {
     if (!worker->status) worker->status = status;
@@ -71,43 +64,12 @@ static void choose_groups(wf_pipeline *p) {
 
 static weft_status make_worker(wf_pipeline *p, wf_worker *worker, weft_error *err) {
     const wf_setup *s = p->setup;
-    size_t width = (size_t)p->job->raster.width_px;
     weft_status status = wf_reader_new(&s->source, &worker->reader, err);
+    if (!status) status = wf_finisher_new(p->frames, &worker->finisher, err);
     if (status) return status;
     worker->scratch = wf_scratch_new(s->resampler, p->group_most + p->carried_most);
-    worker->line = malloc(3 * width * sizeof *worker->line);
-    worker->code_scratch = malloc((1 + wf_encode_scratch(&s->encoding)) * sizeof(float));
-    if (worker->scratch && worker->line && worker->code_scratch) return WEFT_OK;
+    if (worker->scratch) return WEFT_OK;
     return wf_fail(err, WEFT_NO_MEMORY, "no memory for the buffers of a thread");
-}
-
-static size_t sample_bytes(const wf_pipeline *p) {
-    return p->setup->sink->layout == WF_LINEAR ? sizeof(float) : sizeof(uint16_t);
-}
-
-static size_t plane_bytes(const wf_pipeline *p, int c) {
-    return p->stride[c] * (size_t)p->job->raster.lines * sample_bytes(p);
-}
-
-/* Fields of a group may be finished in any order, and the first of them may belong to a frame
- * of the group before. */
-static weft_status make_frames(wf_pipeline *p, weft_error *err) {
-    p->frames = calloc((size_t)p->frame_count, sizeof *p->frames);
-    bool room = p->frames;
-    for (int n = 0; room && n < p->frame_count; n++)
-        for (int c = 0; c < 3; c++) {
-            p->frames[n].plane[c] = malloc(plane_bytes(p, c));
-            room = room && p->frames[n].plane[c];
-        }
-    return room ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
-}
-
-static void size_frames(wf_pipeline *p) {
-    const wf_sink_options *o = &p->setup->sink_options;
-    size_t width = (size_t)o->raster->width_px;
-    int per_frame = wf_raster_fields_per_frame(o->raster);
-    for (int c = 0; c < 3; c++) p->stride[c] = c && o->subsampled ? width / 2 : width;
-    p->frame_count = (p->group_most + per_frame - 1) / per_frame + 1;
 }
 
 /* What a run holds at most, but for the libraries' own needs. */
@@ -116,7 +78,7 @@ static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
     size_t bytes = (size_t)p->group_most * wf_resampler_field_bytes(rs, false) +
                    (size_t)p->carried_most * wf_resampler_field_bytes(rs, true) +
                    (size_t)p->threads * wf_scratch_bytes(rs, p->group_most + p->carried_most);
-    for (int c = 0; c < 3; c++) bytes += (size_t)p->frame_count * plane_bytes(p, c);
+    bytes += wf_frames_bytes(p->job, p->setup, p->group_most);
     if (bytes <= p->job->max_memory_bytes) return WEFT_OK;
     return wf_fail(
         err, WEFT_NO_MEMORY,
@@ -127,7 +89,6 @@ static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
 
 static weft_status fill_pipeline(wf_pipeline *p, weft_error *err) {
     choose_groups(p);
-    size_frames(p);
     weft_status status = check_memory(p, err);
     if (status) return status;
     size_t flight = (size_t)(p->group_most + p->carried_most);
@@ -137,9 +98,10 @@ static weft_status fill_pipeline(wf_pipeline *p, weft_error *err) {
     p->spare = calloc(flight, sizeof *p->spare);
     if (!p->workers || !p->flight || !p->active || !p->spare)
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for %d threads", p->threads);
+    status = wf_frames_new(p->job, p->setup, p->group_most, &p->frames, err);
     for (int t = 0; !status && t < p->threads; t++)
         status = make_worker(p, &p->workers[t], err);
-    return status ? status : make_frames(p, err);
+    return status;
 }
 
 weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **out,
@@ -149,8 +111,6 @@ weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **
     p->job = job;
     p->setup = setup;
     p->threads = job->threads > 0 ? job->threads : omp_get_num_procs();
-    p->frames_total = setup->end_frame - setup->first_frame;
-    p->started_s = wf_now_s();
     weft_status status = fill_pipeline(p, err);
     if (status) {
         wf_pipeline_free(p);
@@ -172,51 +132,25 @@ void wf_pipeline_free(wf_pipeline *p) {
     for (int t = 0; p->workers && t < p->threads; t++) {
         wf_reader_free(p->workers[t].reader);
         wf_scratch_free(p->workers[t].scratch);
-        free(p->workers[t].line);
-        free(p->workers[t].code_scratch);
+        wf_finisher_free(&p->workers[t].finisher);
     }
     free(p->workers);
     free(p->flight);
     free(p->active);
     free(p->spare);
-    for (int n = 0; p->frames && n < p->frame_count; n++)
-        for (int c = 0; c < 3; c++) free(p->frames[n].plane[c]);
-    free(p->frames);
+    wf_frames_free(p->frames);
     free(p);
 }
 
 /* ---- Fields to frames ---- */
 
-static wf_frame_room *frame_of(const wf_pipeline *p, int64_t field) {
-    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
-    return &p->frames[field / per_frame % p->frame_count];
-}
-
-static void *frame_line(const wf_pipeline *p, const wf_frame_room *frame, int c, int j) {
-    return (char *)frame->plane[c] + (size_t)j * p->stride[c] * sample_bytes(p);
-}
-
 void wf_pipeline_finish_line(wf_pipeline *p, wf_worker *worker, const wf_field *field, int l) {
-    const wf_setup *s = p->setup;
-    const wf_raster *raster = &p->job->raster;
-    const wf_frame_room *frame = frame_of(p, wf_field_index(field));
-    size_t width = (size_t)raster->width_px;
-    int j = wf_raster_parity(raster, wf_field_index(field)) + l * wf_raster_line_step(raster);
-    bool linear = s->sink->layout == WF_LINEAR;
     float *rgb[3];
-    uint16_t *code[3];
-    for (int c = 0; c < 3; c++) {
-        rgb[c] = linear ? frame_line(p, frame, c, j) : worker->line + (size_t)c * width;
-        code[c] = frame_line(p, frame, c, j);
-    }
     double start = wf_now_s();
+    wf_frames_room(p->frames, &worker->finisher, wf_field_index(field), l, rgb);
     wf_field_line(field, l, worker->scratch, rgb);
-    double resampled = wf_now_s();
-    worker->resample_s += resampled - start;
-    if (s->transform.apply)
-        s->transform.apply(s->transform.self, rgb[0], rgb[1], rgb[2], width);
-    if (!linear) wf_encode_line(&s->encoding, rgb, worker->code_scratch, code);
-    worker->color_s += wf_now_s() - resampled;
+    worker->resample_s += wf_now_s() - start;
+    wf_frames_line(p->frames, &worker->finisher, wf_field_index(field), l);
 }
 
 /* All lines of a field that was complete before its group was read. */
@@ -226,24 +160,6 @@ static void finish_field(wf_pipeline *p, const wf_field *field) {
 #pragma omp parallel for num_threads(p->threads) schedule(dynamic, 4)
     for (int l = 0; l < lines; l++)
         wf_pipeline_finish_line(p, &p->workers[omp_get_thread_num()], field, l);
-}
-
-static weft_status write_frame(wf_pipeline *p, int64_t index, weft_error *err) {
-    wf_frame frame = {.index = index};
-    for (int c = 0; c < 3; c++) {
-        frame.plane[c] = p->frames[index % p->frame_count].plane[c];
-        frame.stride[c] = p->stride[c];
-    }
-    double start = wf_now_s();
-    weft_status status = p->setup->sink->write(p->sink, &frame, err);
-    p->write_s += wf_now_s() - start;
-    p->frames_done++;
-    if (p->job->progress) {
-        weft_progress progress = {p->frames_done, p->frames_total, wf_now_s() - p->started_s,
-                                  "convert"};
-        p->job->progress(&progress, p->job->progress_user);
-    }
-    return status;
 }
 
 static void land_first(wf_pipeline *p) {
@@ -260,7 +176,7 @@ static weft_status finish_group(wf_pipeline *p, int64_t first, int64_t end, weft
         if (!wf_field_lines_taken(p->flight[0])) finish_field(p, p->flight[0]);
         land_first(p);
         if (n % per_frame != per_frame - 1) continue;
-        weft_status status = write_frame(p, n / per_frame, err);
+        weft_status status = wf_frames_write(p->frames, n / per_frame, err);
         if (status) return status;
     }
     return WEFT_OK;
@@ -299,7 +215,7 @@ wf_worker wf_pipeline_times(const wf_pipeline *p) {
     for (int t = 0; t < p->threads; t++) {
         sum.decode_s += p->workers[t].decode_s;
         sum.resample_s += p->workers[t].resample_s;
-        sum.color_s += p->workers[t].color_s;
+        sum.finisher.color_s += p->workers[t].finisher.color_s;
     }
     return sum;
 }

@@ -3,29 +3,23 @@
 
 #include <stdatomic.h>
 
-#include "convert/setup.h"
+#include "convert/frames.h"
 
 /* What one thread works with, and how long it has worked. */
 typedef struct wf_worker {
     wf_reader *reader;
     wf_scratch *scratch;
-    float *line;         /* [3][width]: one line of scene-linear, then of R'G'B' */
-    float *code_scratch; /* wf_encode_scratch */
+    wf_finisher finisher;
     weft_status status;
     weft_error error;
-    double decode_s, resample_s, color_s;
+    double decode_s, resample_s;
 } wf_worker;
-
-/* The planes of a frame while its fields are finished, in any order. */
-typedef struct wf_frame_room {
-    void *plane[3];
-} wf_frame_room;
 
 /* A run of whole frames through source, resampler, colour and sink. */
 typedef struct wf_pipeline {
     weft_job *job;
     const wf_setup *setup;
-    wf_sink *sink;
+    wf_frames *frames;
     wf_worker *workers;
     int threads;
     int group_most;   /* fields finished together */
@@ -33,9 +27,6 @@ typedef struct wf_pipeline {
                        */
     bool merge;       /* equal pictures of one window are added once with their weights' sum */
     atomic_bool stop;
-    wf_frame_room *frames; /* being put together: frame n in frames[n % frame_count] */
-    int frame_count;
-    size_t stride[3]; /* samples */
     int64_t
         next_subframe; /* the first that no field in flight has seen; 0 where none is carried */
     wf_field **flight; /* fields in flight, from flight_first on; room for all of a group */
@@ -44,9 +35,8 @@ typedef struct wf_pipeline {
     int spare_count;
     int64_t flight_first;
     int flight_count;
-    int64_t end_field;    /* of the frames in hand: nothing later is put in flight */
-    int64_t opened, frames_done, frames_total;
-    double write_s, started_s;
+    int64_t end_field; /* of the frames in hand: nothing later is put in flight */
+    int64_t opened;
 } wf_pipeline;
 
 weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **out,
@@ -60,9 +50,6 @@ weft_status wf_pipeline_frames(wf_pipeline *pipeline, int64_t first, int64_t end
 /* What the workers counted and how long they took, added up. */
 wf_source_counts wf_pipeline_counts(const wf_pipeline *pipeline);
 wf_worker wf_pipeline_times(const wf_pipeline *pipeline);
-
-/* Monotonic seconds. */
-double wf_now_s(void);
 
 /* ---- Between the pipeline's files ---- */
 

@@ -54,6 +54,18 @@ static void add_input(wf_json *json, const wf_report *report) {
     wf_json_close(json);
 }
 
+static void add_tracer(wf_json *json, const wf_report *report) {
+    wf_json_open(json, "tracer", '{');
+    if (report->traced) {
+        wf_json_int(json, "samples", report->samples);
+        wf_json_int(json, "rays", report->rays);
+        wf_json_int(json, "tiles", report->tiles);
+        wf_json_int(json, "tiles_skipped", report->tiles_skipped);
+        wf_json_real(json, "error_estimate", report->error_estimate);
+    }
+    wf_json_close(json);
+}
+
 static void add_legal(wf_json *json, const wf_report_legal *legal) {
     wf_json_open(json, "legal", '{');
     if (legal->legalize) {
@@ -68,6 +80,7 @@ static void add_seconds(wf_json *json, const wf_report *report) {
     wf_json_open(json, "seconds", '{');
     wf_json_real(json, "wall", report->wall_s);
     wf_json_real(json, "decode", report->decode_s);
+    if (report->traced) wf_json_real(json, "trace", report->trace_s);
     wf_json_real(json, "resample", report->resample_s);
     wf_json_real(json, "color", report->color_s);
     wf_json_real(json, "write", report->write_s);
@@ -96,8 +109,7 @@ char *wf_report_json(const wf_report *report) {
     wf_json_int(&json, "frames", report->frames);
     wf_json_int(&json, "fields", report->fields);
     add_input(&json, report);
-    wf_json_open(&json, "tracer", '{'); /* converting traces nothing */
-    wf_json_close(&json);
+    add_tracer(&json, report);
     add_legal(&json, &report->legal);
     add_seconds(&json, report);
     wf_json_int(&json, "peak_memory_bytes", peak ? peak : wf_peak_memory_bytes());

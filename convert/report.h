@@ -20,12 +20,17 @@ typedef struct wf_report {
     const wf_raster *raster; /* NULL: "raster" is {} */
     int64_t frames, fields;  /* written by this run */
 
-    int64_t listed, opened;     /* subframes selected, missing ones included; files opened */
-    const wf_rational *missing; /* [missing_count] numbers absent from the selection */
+    int64_t listed, opened; /* subframes selected, missing ones included; files opened */
+    wf_rational *missing;   /* [missing_count] numbers absent from the selection */
     size_t missing_count;
     int64_t chunks_decoded, chunks_reused, nan_fixed;
 
+    bool traced; /* false: "tracer" is {} */
+    int64_t samples, rays, tiles, tiles_skipped;
+    double error_estimate; /* RMS, display-encoded; 0: none was made */
+
     wf_report_legal legal;
+    double trace_s; /* of all threads together, as the others but wall are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
     bool degraded;             /* frames were held or samples mended */

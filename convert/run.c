@@ -4,7 +4,7 @@
 
 #include "convert/collide.h"
 #include "convert/pipeline.h"
-#include "convert/report.h"
+#include "convert/render.h"
 
 void wf_job_warn(const weft_job *job, const char *format, ...) {
     if (!job->warning) return;
@@ -69,9 +69,7 @@ static weft_status face_missing(weft_job *job, const wf_setup *s, bool *degraded
 
 /* ---- Running ---- */
 
-/* Frames first <= n < *end that are to be written; with --resume those whose files are there
- * are left out. False when nothing remains. */
-static bool next_frames(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
+bool wf_next_frames(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
     bool leave_out = job->resume && s->sink->sequence;
     while (leave_out && *first < s->end_frame && wf_sink_present(s->sink, job->output, *first))
         ++*first;
@@ -84,7 +82,7 @@ static bool next_frames(const weft_job *job, const wf_setup *s, int64_t *first, 
 static weft_status convert_frames(wf_pipeline *p, weft_error *err) {
     int64_t first = p->setup->first_frame, end;
     weft_status status = WEFT_OK;
-    while (!status && next_frames(p->job, p->setup, &first, &end)) {
+    while (!status && wf_next_frames(p->job, p->setup, &first, &end)) {
         status = wf_pipeline_frames(p, first, end, err);
         first = end;
     }
@@ -92,48 +90,30 @@ static weft_status convert_frames(wf_pipeline *p, weft_error *err) {
 }
 
 static weft_status run_with_sink(wf_pipeline *p, weft_error *err) {
-    const wf_setup *s = p->setup;
-    weft_status status = s->sink->open(&s->sink_options, &p->sink, err);
-    if (status) return status;
-    status = convert_frames(p, err);
-    if (status) {
-        s->sink->abandon(p->sink);
-        return status;
-    }
-    double start = wf_now_s();
-    status = s->sink->commit(p->sink, err);
-    p->write_s += wf_now_s() - start;
-    return status;
+    weft_status status = wf_frames_open(p->frames, err);
+    if (!status) status = convert_frames(p, err);
+    return status ? status : wf_frames_commit(p->frames, err);
 }
 
-static void write_report(weft_job *job, const wf_setup *s, const wf_pipeline *p,
-                         wf_report *report) {
-    wf_rational *missing = list_missing(&s->sequence);
-    report->raster = &job->raster;
+static void tell(const weft_job *job, const wf_setup *s, const wf_pipeline *p,
+                 wf_report *report) {
     report->listed = (int64_t)s->sequence.count;
-    report->missing = missing;
-    report->missing_count = missing ? s->sequence.missing : 0;
-    if (p) {
-        wf_source_counts counts = wf_pipeline_counts(p);
-        wf_worker times = wf_pipeline_times(p);
-        report->frames = p->frames_done;
-        report->fields = p->frames_done * wf_raster_fields_per_frame(&job->raster);
-        report->opened = p->opened;
-        report->chunks_decoded = counts.chunks_decoded;
-        report->chunks_reused = counts.chunks_reused;
-        report->nan_fixed = counts.nan_fixed;
-        report->decode_s = times.decode_s;
-        report->resample_s = times.resample_s;
-        report->color_s = times.color_s;
-        report->write_s = p->write_s;
-    }
-    if (s->sink && s->sink->layout != WF_LINEAR)
-        report->legal = (wf_report_legal){job->legalize == WF_LEGAL_CLIP ? "clip" : "none",
-                                          s->sink_options.full_range ? "full" : "narrow",
-                                          s->sink_options.bits};
-    free(job->report);
-    job->report = wf_report_json(report);
-    free(missing);
+    report->missing = list_missing(&s->sequence);
+    report->missing_count = report->missing ? s->sequence.missing : 0;
+    report->legal = wf_setup_legal(job, s);
+    if (!p) return;
+    wf_source_counts counts = wf_pipeline_counts(p);
+    wf_worker times = wf_pipeline_times(p);
+    report->frames = wf_frames_done(p->frames);
+    report->fields = report->frames * wf_raster_fields_per_frame(&job->raster);
+    report->opened = p->opened;
+    report->chunks_decoded = counts.chunks_decoded;
+    report->chunks_reused = counts.chunks_reused;
+    report->nan_fixed = counts.nan_fixed;
+    report->decode_s = times.decode_s;
+    report->resample_s = times.resample_s;
+    report->color_s = times.finisher.color_s;
+    report->write_s = wf_frames_write_s(p->frames);
 }
 
 static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
@@ -156,21 +136,36 @@ static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, 
     return status;
 }
 
+static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
+    wf_setup setup = {0};
+    wf_pipeline *pipeline = NULL;
+    weft_status status = wf_setup_make(job, &setup, err);
+    if (!status) status = run_setup(job, &setup, &pipeline, &report->degraded, err);
+    tell(job, &setup, pipeline, report);
+    wf_pipeline_free(pipeline);
+    wf_setup_free(&setup);
+    return status;
+}
+
+/* ---- Any job ---- */
+
+typedef weft_status run_fn(weft_job *job, wf_report *report, weft_error *err);
+
+static run_fn *const runs[] = {
+    [WF_CONVERT] = run_convert, [WF_RENDER] = wf_run_render, [WF_TRACE] = wf_run_trace};
+
 weft_status weft_job_run(weft_job *job, weft_error *err) {
     double start = wf_now_s();
     weft_error own;
     if (!err) err = &own;
     err->text[0] = '\0';
-    wf_setup setup = {0};
-    wf_pipeline *pipeline = NULL;
-    wf_report report = {.command = "convert"};
+    wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
-    if (!status) status = wf_setup_make(job, &setup, err);
-    if (!status) status = run_setup(job, &setup, &pipeline, &report.degraded, err);
+    if (!status) status = runs[job->command](job, &report, err);
     report.wall_s = wf_now_s() - start;
     report.error = status ? err->text : NULL;
-    write_report(job, &setup, pipeline, &report);
-    wf_pipeline_free(pipeline);
-    wf_setup_free(&setup);
+    free(job->report);
+    job->report = wf_report_json(&report);
+    free(report.missing);
     return status ? status : report.degraded ? WEFT_DEGRADED : WEFT_OK;
 }

@@ -198,6 +198,10 @@ static weft_status open_ocio(const wf_ocio_query *query, wf_setup *s, weft_error
     return WEFT_OK;
 }
 
+static const char *source_space(const weft_job *job, const wf_setup *s) {
+    return job->from ? job->from : s->scene_space ? s->scene_space : "lin_rec709";
+}
+
 static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error *err) {
     const char *config = foreign_config(job),
                *raster_space = raster_colors[job->raster.matrix].space;
@@ -210,12 +214,12 @@ static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error
                             : "");
     if (!config && !by_display && !job->look) {
         char why[900];
-        if (wf_builtin_transform(job->from ? job->from : "lin_rec709", to, &s->transform, why,
-                                 sizeof why))
+        if (wf_builtin_transform(source_space(job, s), to, &s->transform, why, sizeof why))
             return WEFT_OK;
         return wf_fail(err, WEFT_USAGE, "%s", why);
     }
-    const wf_ocio_query query = {config, job->from, to, job->display, job->view, job->look};
+    const char *from = job->from ? job->from : s->scene_space;
+    const wf_ocio_query query = {config, from, to, job->display, job->view, job->look};
     return open_ocio(&query, s, err);
 }
 
@@ -225,8 +229,7 @@ static bool left_linear(const weft_job *job, const wf_sink_kind *sink) {
 
 static weft_status choose_color(const weft_job *job, wf_setup *s, weft_error *err) {
     if (left_linear(job, s->sink)) {
-        snprintf(s->color_space, sizeof s->color_space, "%s",
-                 job->from ? job->from : "lin_rec709");
+        snprintf(s->color_space, sizeof s->color_space, "%s", source_space(job, s));
         return WEFT_OK;
     }
     if (job->nan_fix == WF_NAN_NONE)
@@ -307,15 +310,38 @@ static weft_status choose_sink(const weft_job *job, wf_setup *s, weft_error *err
     return WEFT_OK;
 }
 
-weft_status wf_setup_make(weft_job *job, wf_setup *s, weft_error *err) {
-    *s = (wf_setup){0};
+weft_status wf_setup_output(weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = choose_sink(job, s, err);
-    if (!status) status = choose_color(job, s, err);
-    if (!status) status = find_input(job, s, err);
-    if (!status) status = make_resampler(job, s, err);
+    return status ? status : choose_color(job, s, err);
+}
+
+void wf_setup_count_frames(wf_setup *s) {
     s->sink_options.first_frame = s->first_frame;
     s->sink_options.frame_count = s->end_frame - s->first_frame;
+}
+
+weft_status wf_setup_make(weft_job *job, wf_setup *s, weft_error *err) {
+    *s = (wf_setup){0};
+    weft_status status = wf_setup_output(job, s, err);
+    if (!status) status = find_input(job, s, err);
+    if (!status) status = make_resampler(job, s, err);
+    wf_setup_count_frames(s);
     return status;
+}
+
+wf_gather_desc wf_setup_gather(const weft_job *job) {
+    return (wf_gather_desc){.raster = &job->raster,
+                            .aperture = job->aperture,
+                            .width = temporal_width(job),
+                            .position = job->shutter_position,
+                            .skew = job->scan_skew};
+}
+
+wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
+    if (!s->sink || s->sink->layout == WF_LINEAR) return (wf_report_legal){0};
+    return (wf_report_legal){job->legalize == WF_LEGAL_CLIP ? "clip" : "none",
+                             s->sink_options.full_range ? "full" : "narrow",
+                             s->sink_options.bits};
 }
 
 void wf_setup_free(wf_setup *s) {

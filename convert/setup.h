@@ -3,7 +3,9 @@
 
 #include "convert/job.h"
 #include "convert/sequence.h"
+#include "convert/report.h"
 #include "filters/resampler.h"
+#include "filters/samples.h"
 
 /* A job settled: what there is to read, what is to be written, and all that stands between. */
 typedef struct wf_setup {
@@ -16,6 +18,7 @@ typedef struct wf_setup {
 
     const wf_sink_kind *sink;
     wf_sink_options sink_options;
+    const char *scene_space; /* what the input says that its colours are in; NULL: nothing */
     char color_space[64];
     wf_transform transform; /* apply is NULL where colour is left alone */
     wf_encoding encoding;   /* where codes are written */
@@ -25,5 +28,16 @@ typedef struct wf_setup {
  * read. Whatever the status, wf_setup_free releases it. */
 weft_status wf_setup_make(weft_job *job, wf_setup *setup, weft_error *err);
 void wf_setup_free(wf_setup *setup);
+
+/* The output's side of it alone: sink, colour, codes. */
+weft_status wf_setup_output(weft_job *job, wf_setup *setup, weft_error *err);
+
+/* Tells the sink which frames there will be: first_frame to end_frame. */
+void wf_setup_count_frames(wf_setup *setup);
+
+/* How fields look at samples. Borrows the job's raster. */
+wf_gather_desc wf_setup_gather(const weft_job *job);
+
+wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *setup);
 
 #endif

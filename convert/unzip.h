@@ -5,12 +5,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What follows inflation in OpenEXR's ZIP and ZIPS chunks: bytes were split into even and odd ones
- * and replaced by differences. One table for each instruction set; all give the same bytes. */
+/* What follows inflation in OpenEXR's ZIP and ZIPS chunks: bytes were split into even and odd
+ * ones and replaced by differences. One table for each instruction set; all give the same
+ * bytes. */
 typedef struct wf_unzip_ops {
     const char *name;
-    /* Undoes differences and split of count inflated bytes. True if some 16-bit word of the result
-     * has all exponent bits of a half set: an Inf or a NaN, where the chunk holds halves. */
+    /* Undoes differences and split of count inflated bytes. True if some 16-bit word of the
+     * result has all exponent bits of a half set: an Inf or a NaN, where the chunk holds
+     * halves. */
     bool (*merge)(uint8_t *restrict out, const uint8_t *restrict inflated, size_t count);
     /* Whether any of count halves is not finite. */
     bool (*odd_halves)(const uint16_t *half, size_t count);

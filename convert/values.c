@@ -60,6 +60,18 @@ bool wf_parse_chunk(const char *text, int *chunk, int *count) {
     return true;
 }
 
+bool wf_parse_oversample(const char *text, int *across, int *down, int *times) {
+    int n[3];
+    for (int k = 0; k < 3; k++) {
+        if (!read_count(&text, 64, &n[k]) || n[k] < 1) return false;
+        if (*text++ != (k < 2 ? 'x' : '\0')) return false;
+    }
+    *across = n[0];
+    *down = n[1];
+    *times = n[2];
+    return true;
+}
+
 bool wf_parse_rgb(const char *text, float rgb[3]) {
     char words[128], *rest = words;
     float read[3];

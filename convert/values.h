@@ -14,6 +14,9 @@ bool wf_parse_size(const char *text, size_t *bytes);
 /* "2/4": 1 <= chunk <= count <= 10^6; not reduced. */
 bool wf_parse_chunk(const char *text, int *chunk, int *count);
 
+/* "4x4x8": samples a pixel, a line and a field, each 1 .. 64. */
+bool wf_parse_oversample(const char *text, int *across, int *down, int *times);
+
 /* "0.18" or "0.1,0.2,0.3", each 0 .. 65504. */
 bool wf_parse_rgb(const char *text, float rgb[3]);
 

@@ -43,14 +43,18 @@ typedef struct weft_error {
 /* ---- Conversion jobs ------------------------------------------------------------------------
  */
 
-/* One conversion: inputs, an output, and options by the names of the command line. */
+/* One run of the program: inputs, an output, and options by the names of the command line. */
 typedef struct weft_job weft_job;
 
 /* NULL when memory is out. */
 WEFT_API weft_job *weft_job_new(void);
 WEFT_API void weft_job_free(weft_job *job); /* NULL is fine */
 
-/* Adds a file, a sequence pattern or a directory, in order. The text is copied. */
+/* What the job does: "convert" (which a new job does), "render" or "trace". */
+WEFT_API weft_status weft_job_set_command(weft_job *job, const char *name, weft_error *err);
+
+/* Adds a file, a sequence pattern or a directory, in order; to render and trace, one scene. The
+ * text is copied. */
 WEFT_API weft_status weft_job_add_input(weft_job *job, const char *path, weft_error *err);
 WEFT_API weft_status weft_job_set_output(weft_job *job, const char *path, weft_error *err);
 
@@ -64,7 +68,7 @@ WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *v
 typedef struct weft_progress {
     int64_t frames_done, frames_total;
     double seconds;    /* since the run began */
-    const char *stage; /* "convert", "finish"; static storage */
+    const char *stage; /* what the job does; static storage */
 } weft_progress;
 typedef void weft_progress_fn(const weft_progress *progress, void *user);
 WEFT_API void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user);

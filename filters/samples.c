@@ -133,6 +133,10 @@ int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
     return empty;
 }
 
+bool wf_gather_reached(const wf_gather *g, int line, int pixel) {
+    return line_sums(g, line)[pixel].weight != 0;
+}
+
 /* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
 static int nearest_in_line(const wf_gather *g, int line, int pixel) {
     const wf_pixel_sum *sum = line_sums(g, line);

@@ -58,6 +58,9 @@ void wf_gather_merge(wf_gather *gather, const wf_gather *from);
  * (or whose weights cancel); such pixels are 0 there. */
 int wf_gather_line(const wf_gather *gather, int line, float *const rgb[3]);
 
+/* Whether any sample reached a pixel. */
+bool wf_gather_reached(const wf_gather *gather, int line, int pixel);
+
 /* What pixel of line l takes from the nearest pixel of the gather that samples reached, by
  * distance on the raster. False where no sample reached any. */
 bool wf_gather_nearest(const wf_gather *gather, int line, int pixel, float rgb[3]);

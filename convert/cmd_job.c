@@ -11,11 +11,11 @@
 #include "convert/outfile.h"
 #include "convert/progress.h"
 
-typedef struct convert_state {
+typedef struct job_state {
     const char *output, *progress, *report;
     bool quiet;
     wf_meter meter;
-} convert_state;
+} job_state;
 
 /* ---- Signals ---- */
 
@@ -69,13 +69,13 @@ static void ignore_signals(void) {
 /* ---- The command ---- */
 
 static void on_warning(const char *text, void *user) {
-    convert_state *state = user;
+    job_state *state = user;
     if (state->quiet) return;
     wf_meter_clear(&state->meter);
     wf_cmd_say("warning: ", text);
 }
 
-static weft_status check_state(convert_state *state, weft_error *err) {
+static weft_status check_state(job_state *state, weft_error *err) {
     if (!wf_meter_init(&state->meter, state->quiet ? "none" : state->progress))
         return wf_fail(
             err, WEFT_USAGE,
@@ -88,7 +88,7 @@ static weft_status check_state(convert_state *state, weft_error *err) {
     return WEFT_OK;
 }
 
-static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, convert_state *state,
+static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, job_state *state,
                             weft_job *job, weft_error *err) {
     int inputs = 0;
     weft_status status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
@@ -110,14 +110,14 @@ static weft_status write_report(const char *path, const weft_job *job, weft_erro
     return status;
 }
 
-static void say_done(const convert_state *state) {
+static void say_done(const job_state *state) {
     const weft_progress *p = &state->meter.last;
     char text[128];
     snprintf(text, sizeof text, "%" PRId64 " frames in %.2f s", p->frames_done, p->seconds);
     if (!state->quiet && state->meter.show && !state->progress) wf_cmd_say("", text);
 }
 
-static weft_status run_job(convert_state *state, weft_job *job, weft_error *err) {
+static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
     catch_signals(job);
@@ -132,10 +132,11 @@ static weft_status run_job(convert_state *state, weft_job *job, weft_error *err)
 }
 
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
-    convert_state state = {0};
+    job_state state = {0};
     weft_job *job = weft_job_new();
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    weft_status status = fill_job(cmd, argc, argv, &state, job, err);
+    weft_status status = weft_job_set_command(job, cmd->name, err);
+    if (!status) status = fill_job(cmd, argc, argv, &state, job, err);
     if (!status) status = run_job(&state, job, err);
     weft_job_free(job);
     return status;
@@ -150,23 +151,43 @@ static const wf_cmd_option options[] = {
       "Y4M on standard output.",
       output},
      'o',
-     offsetof(convert_state, output)},
+     offsetof(job_state, output)},
     {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
       "How to show progress, on standard error.", output},
      0,
-     offsetof(convert_state, progress)},
-    {{"quiet", NULL, NULL, "Say nothing but errors.", output},
-     'q',
-     offsetof(convert_state, quiet)},
+     offsetof(job_state, progress)},
+    {{"quiet", NULL, NULL, "Say nothing but errors.", output}, 'q', offsetof(job_state, quiet)},
     {{"report", "FILE", NULL, "Write what was done as JSON, also when it failed.", output},
      0,
-     offsetof(convert_state, report)},
+     offsetof(job_state, report)},
 };
+
+#define OPTIONS .options = options, .option_count = sizeof options / sizeof *options
+
+static const char notes[] =
+    "Options and inputs may stand in any order; of an option given twice the last counts;\n"
+    "-- ends the options. Numbers may be ratios: 1/3, 30000/1001.\n"
+    "\n"
+    "Exit codes: 0 done; 1 failed; 2 the request makes no sense; 3 done, but frames were\n"
+    "held or samples mended; 128 + n on signal n. On failure nothing unfinished is left.\n";
+
+/* ---- weft convert ---- */
+
+#define OUTPUT_SIDE                                                                            \
+    "raster", "aperture", "temporal-width", "shutter-angle", "shutter-position", "scan-skew",  \
+        "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
+        "chroma", "legalize"
+#define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume"
+#define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
+
+static const char *const convert_takes[] = {
+    OUTPUT_SIDE, "fit",  "input-par",  "background", "subframe-rate", "subframe-time", "frames",
+    "layer",     "part", "on-missing", "fix-nan",    "on-empty",      RUNNING,         NULL};
 
 const wf_cmd wf_cmd_convert = {
     .name = "convert",
     .operands = "INPUT... -o OUTPUT",
-    .summary = "subframes to interlaced video",
+    .summary = "subframes or samples to interlaced video",
     .text =
         "Turns pictures rendered many times a field into broadcast video. Every field sees\n"
         "the subframes of its own time through an aperture, in linear light.\n"
@@ -182,14 +203,82 @@ const wf_cmd wf_cmd_convert = {
         "\n"
         "To look at it while it is being made:\n"
         "\n"
-        "  weft convert shot.####.exr --subframe-rate 480000/1001 -o - | mpv -\n",
-    .notes =
-        "Options and inputs may stand in any order; of an option given twice the last counts;\n"
-        "-- ends the options. Numbers may be ratios: 1/3, 30000/1001.\n"
+        "  weft convert shot.####.exr --subframe-rate 480000/1001 -o - | mpv -\n"
         "\n"
-        "Exit codes: 0 done; 1 failed; 2 the request makes no sense; 3 done, but frames were\n"
-        "held or samples mended; 128 + n on signal n. On failure nothing unfinished is left.\n",
-    .options = options,
-    .option_count = sizeof options / sizeof *options,
+        "Deep EXR files with channels sample.x, sample.y and sample.t are sample buffers, one "
+        "a\n"
+        "frame, as 'weft trace' and other renderers write them.\n",
+    .notes = notes,
+    OPTIONS,
+    .job_options = convert_takes,
+    .run = run,
+};
+
+/* ---- weft render ---- */
+
+static const char *const render_takes[] = {OUTPUT_SIDE, "frames", SCENE,
+                                           "error",     RUNNING,  NULL};
+
+const wf_cmd wf_cmd_render = {
+    .name = "render",
+    .operands = "SCENE.lua -o OUTPUT",
+    .summary = "a scene straight to interlaced video",
+    .text =
+        "Traces a scene where the apertures of its fields are, in space and in time, and "
+        "writes\n"
+        "video; nothing dense is stored. Scenes are Lua: examples/scenes/README.md tells how "
+        "to\n"
+        "write one.\n"
+        "\n"
+        "  weft render carousel.lua -o carousel.y4m\n"
+        "\n"
+        "One frame as a picture, quickly:\n"
+        "\n"
+        "  weft render carousel.lua --frames 0 --samples 16 -o still.#.png\n"
+        "\n"
+        "Through another aperture, with a shutter of 180 degrees, in 1080i:\n"
+        "\n"
+        "  weft render carousel.lua --aperture notch --shutter-angle 180 --raster 1080i50 \\\n"
+        "      -o carousel.####.dpx\n",
+    .notes = notes,
+    OPTIONS,
+    .job_options = render_takes,
+    .run = run,
+};
+
+/* ---- weft trace ---- */
+
+static const char *const trace_takes[] = {"raster",
+                                          "aperture",
+                                          "temporal-width",
+                                          "shutter-angle",
+                                          "shutter-position",
+                                          "scan-skew",
+                                          "frames",
+                                          SCENE,
+                                          "oversample",
+                                          RUNNING,
+                                          NULL};
+
+const wf_cmd wf_cmd_trace = {
+    .name = "trace",
+    .operands = "SCENE.lua -o SAMPLES",
+    .summary = "a scene to subframes or sample buffers",
+    .text = "Traces a scene and stores what it sees, for 'weft convert' to take up.\n"
+            "\n"
+            "With --oversample, subframes: pictures of so many samples a pixel, a line and a "
+            "field.\n"
+            "\n"
+            "  weft trace carousel.lua --oversample 2x2x8 -o shot.####.exr\n"
+            "  weft convert shot.####.exr -o carousel.y4m\n"
+            "\n"
+            "Without, sample buffers: deep EXR files, one a frame, of samples drawn where the\n"
+            "aperture that is given will look for them.\n"
+            "\n"
+            "  weft trace carousel.lua --samples 16 --aperture box -o samples.####.exr\n"
+            "  weft convert samples.####.exr --aperture box -o carousel.y4m\n",
+    .notes = notes,
+    OPTIONS,
+    .job_options = trace_takes,
     .run = run,
 };
