@@ -32,12 +32,19 @@ wf_affine wf_compose(const wf_affine *outer, const wf_affine *inner) {
     return c;
 }
 
+/* a - b, where what is left when all cancels is rounding and none: an axis of a turned solid
+ * stays square to what it was square to. */
+static double less(double a, double b) {
+    double rest = a - b;
+    return fabs(rest) > (fabs(a) + fabs(b)) * 0x1p-50 ? rest : 0;
+}
+
 bool wf_invert(const wf_affine *a, wf_affine *out) {
     double det = 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            out->m[j][i] = a->m[i1][j1] * a->m[i2][j2] - a->m[i1][j2] * a->m[i2][j1];
+            out->m[j][i] = less(a->m[i1][j1] * a->m[i2][j2], a->m[i1][j2] * a->m[i2][j1]);
         }
     for (int j = 0; j < 3; j++) det += a->m[0][j] * out->m[j][0];
     if (!(fabs(det) > 0) || !isfinite(1 / det)) return false;

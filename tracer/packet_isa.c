@@ -21,14 +21,26 @@ static void row(const double m[3], double shift, const double *restrict x,
     for (int i = 0; i < WF_PACKET; i++) to[i] = a * x[i] + b * y[i] + c * z[i] + shift;
 }
 
+/* The same of directions. What is left where all cancels is rounding, and none: a ray along a
+ * plane must not meet it far away. */
+static void row_along(const double m[3], const double *restrict x, const double *restrict y,
+                      const double *restrict z, double *restrict to) {
+    double a = m[0], b = m[1], c = m[2];
+    for (int i = 0; i < WF_PACKET; i++) {
+        double p = a * x[i], q = b * y[i], r = c * z[i], sum = p + q + r;
+        double size = fabs(p) + fabs(q) + fabs(r);
+        to[i] = fabs(sum) > size * 0x1p-50 ? sum : 0;
+    }
+}
+
 static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
     const double *m[3] = {a->m[0], a->m[1], a->m[2]};
     row(m[0], a->d.x, from->ox, from->oy, from->oz, to->ox);
     row(m[1], a->d.y, from->ox, from->oy, from->oz, to->oy);
     row(m[2], a->d.z, from->ox, from->oy, from->oz, to->oz);
-    row(m[0], 0, from->dx, from->dy, from->dz, to->dx);
-    row(m[1], 0, from->dx, from->dy, from->dz, to->dy);
-    row(m[2], 0, from->dx, from->dy, from->dz, to->dz);
+    row_along(m[0], from->dx, from->dy, from->dz, to->dx);
+    row_along(m[1], from->dx, from->dy, from->dz, to->dy);
+    row_along(m[2], from->dx, from->dy, from->dz, to->dz);
     to->count = from->count;
 }
 

@@ -170,7 +170,9 @@ static void polyhedron(const wf_solid *solid, const wf_plane *planes, const wf_r
         const wf_plane *f = &planes[solid->first_plane + p];
         for (int i = 0; i < n; i++) {
             double over = f->n[0] * r->ox[i] + f->n[1] * r->oy[i] + f->n[2] * r->oz[i] - f->d;
-            double rise = f->n[0] * r->dx[i] + f->n[1] * r->dy[i] + f->n[2] * r->dz[i];
+            double x = f->n[0] * r->dx[i], y = f->n[1] * r->dy[i], z = f->n[2] * r->dz[i];
+            double rise =
+                fabs(x + y + z) > (fabs(x) + fabs(y) + fabs(z)) * 0x1p-50 ? x + y + z : 0;
             double at = -over / rise;
             double in = rise < 0 ? at : rise > 0 || over <= 0 ? -HUGE_VAL : HUGE_VAL;
             double out = rise > 0 ? at : rise < 0 || over <= 0 ? HUGE_VAL : -HUGE_VAL;
