@@ -149,20 +149,29 @@ static void add_hint(lua_State *lua, const char *message, char *why, size_t why_
     lua_settop(lua, 0);
 }
 
+/* Whether a message says where in the script it arose: "name:12: ..". */
+static bool has_line(const char *message) {
+    for (const char *c = strchr(message, ':'); c; c = strchr(c + 1, ':')) {
+        size_t digits = strspn(c + 1, "0123456789");
+        if (digits && c[1 + digits] == ':') return true;
+    }
+    return false;
+}
+
 static void explain(const wf_builder *b, const char *path, char *why, size_t why_size) {
     lua_State *lua = b->sandbox.lua;
-    const char *message = lua_type(lua, -1) == LUA_TSTRING ? lua_tostring(lua, -1) : NULL;
-    if (b->sandbox.memory_ran_out && message && strstr(message, "not enough memory"))
-        snprintf(why, why_size, "%s: %s (%zu MB; --scene-memory allows more)",
-                 strncmp(message, "not ", 4) ? "scene" : path, message,
+    bool is_text = lua_type(lua, -1) == LUA_TSTRING;
+    const char *message =
+        is_text ? lua_tostring(lua, -1) : "it raised an error that is no text";
+    bool memory = b->sandbox.memory_ran_out && strstr(message, "not enough memory");
+    int used = snprintf(why, why_size, "%s%s%s", has_line(message) ? "" : path,
+                        has_line(message) ? "" : ": ", message);
+    if (memory && used > 0 && (size_t)used < why_size)
+        snprintf(why + used, why_size - (size_t)used, " (%zu MB; --scene-memory allows more)",
                  b->sandbox.memory >> 20);
-    else if (message)
-        snprintf(why, why_size, "%s", message);
-    else
-        snprintf(why, why_size, "%s: the scene raised an error that is no text", path);
     for (char *c = why; *c; c++)
         if (*c == '\n') *c = ' ';
-    if (message) add_hint(lua, message, why, why_size);
+    if (is_text) add_hint(lua, message, why, why_size);
 }
 
 /* ---- Loading ---- */

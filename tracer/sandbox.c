@@ -7,6 +7,8 @@
 #include <lauxlib.h>
 #include <lualib.h>
 
+#include "tracer/fields.h"
+
 /* How many instructions run between two looks at the budget. */
 #define STRIDE 1000
 
@@ -55,10 +57,10 @@ static void spend(lua_State *lua, lua_Debug *where) {
     if (s->steps_left > 0) return;
     if (!s->steps_ran_out) lua_sethook(lua, spend, LUA_MASKCOUNT, 1);
     s->steps_ran_out = true;
-    luaL_error(lua,
-               "the scene takes more than %I steps; does a loop never end? --scene-steps "
-               "allows more",
-               (LUAI_UACINT)s->steps);
+    wf_scene_error(lua, "scene",
+                   "it takes more than %lld steps; does a loop never end? --scene-steps allows "
+                   "more",
+                   (long long)s->steps);
 }
 
 void wf_sandbox_charge(lua_State *lua, double steps) {
