@@ -54,15 +54,14 @@ static weft_status status_of(const wf_gathering *g, weft_error *err) {
 
 /* Fields that share a unit with a field are in flight with it. */
 static int most_in_flight(const wf_gathering *g) {
-    int most = 1;
-    for (int64_t n = 0; n < 4; n++) {
-        int64_t first, last, next_first, next_last, count = 1;
+    int per_frame = wf_raster_fields_per_frame(&g->job->raster), most = 1;
+    int64_t begin = g->setup->first_frame * per_frame, end = g->setup->end_frame * per_frame;
+    for (int64_t n = begin; n < end; n++) {
+        int64_t first, last, m = n;
         g->source.units(g->source.self, n, &first, &last);
-        for (;; count++) {
-            g->source.units(g->source.self, n + count, &next_first, &next_last);
-            if (next_first > last) break;
-        }
-        if (count > most) most = (int)count;
+        for (int64_t next = first; next <= last && ++m < end;)
+            g->source.units(g->source.self, m, &next, &(int64_t){0});
+        if (m - n > most) most = (int)(m - n);
     }
     return most;
 }

@@ -335,10 +335,18 @@ void describe_time(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("smpte:TimeCode", TypeTimeCode, words);
 }
 
+// Ratios that EXR's rationals cannot hold are left out.
+void add_ratio(ImageSpec &spec, const char *name, wf_rational r) {
+    const int parts[2] = {int(r.num), int(r.den)};
+    if (r.den > 0 && r.num <= INT32_MAX && r.den <= INT32_MAX)
+        spec.attribute(name, TypeRational, parts);
+}
+
 void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
-    const int rate[2] = {int(p.frame_rate.num), int(p.frame_rate.den)};
     spec.attribute("compression", "zip");
-    spec.attribute("framesPerSecond", TypeRational, rate);
+    add_ratio(spec, "framesPerSecond", p.frame_rate);
+    add_ratio(spec, "weft:subframeRate", p.subframe_rate);
+    add_ratio(spec, "weft:time", p.time_s);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
     describe_time(p, spec);

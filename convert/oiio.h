@@ -32,9 +32,10 @@ typedef struct wf_oiio_picture {
     wf_rational frame_rate; /* frames a second */
     bool interlaced;        /* two fields are woven into it */
     bool top_first;
-    const char *timecode;    /* "01:02:03;04"; "" for none */
-    const char *color_space; /* "" if unknown */
-    const char *raster;      /* for weft:raster; "" for none */
+    const char *timecode;              /* "01:02:03;04"; "" for none */
+    const char *color_space;           /* "" if unknown */
+    const char *raster;                /* for weft:raster; "" for none */
+    wf_rational subframe_rate, time_s; /* of a subframe; {0, 0}: it is none */
 } wf_oiio_picture;
 
 /* Encodes the picture and hands its bytes to write, in order and whole (a writer that has to

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "convert/collide.h"
+#include "convert/deep_source.h"
 #include "convert/pipeline.h"
 #include "convert/render.h"
 
@@ -139,6 +140,7 @@ static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, 
 static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
     wf_setup setup = {0};
     wf_pipeline *pipeline = NULL;
+    if (wf_takes_samples(job)) return wf_run_samples(job, report, err);
     weft_status status = wf_setup_make(job, &setup, err);
     if (!status) status = run_setup(job, &setup, &pipeline, &report->degraded, err);
     tell(job, &setup, pipeline, report);

@@ -16,9 +16,10 @@ typedef struct wf_sink_options {
     bool subsampled;     /* 4:2:2; false: 4:4:4 */
     int64_t first_frame; /* of this chunk of the run */
     int64_t frame_count;
-    bool stream_header;      /* false: a later chunk, to be joined by cat */
-    const char *timecode;    /* of frame 0; validated */
-    const char *color_space; /* what the codes are in, for metadata; "" if unknown */
+    bool stream_header;        /* false: a later chunk, to be joined by cat */
+    const char *timecode;      /* of frame 0; validated */
+    const char *color_space;   /* what the codes are in, for metadata; "" if unknown */
+    wf_rational subframe_rate; /* "frames" are subframes; {0, 0}: they are frames */
     bool overwrite, resume;
 } wf_sink_options;
 

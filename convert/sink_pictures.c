@@ -137,7 +137,10 @@ static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *er
         .timecode = timecode,
         .color_space = o->color_space ? o->color_space : "",
         .raster = o->raster->name,
+        .subframe_rate = o->subframe_rate,
     };
+    if (wf_ratio_given(o->subframe_rate))
+        picture.time_s = wf_ratio_div(wf_ratio(frame->index, 1), o->subframe_rate);
     for (int c = 0; c < 3; c++) {
         picture.plane[c] = frame->plane[c];
         picture.line_stride[c] = frame->stride[c];

@@ -244,7 +244,7 @@ static wf_plane read_plane(lua_State *lua) {
 static int call_polyhedron(lua_State *lua) {
     wf_builder *b = wf_builder_of(lua);
     static const wf_field_row fields[] = {{"planes", WF_FIELD_OTHER, 0, true}, {0}};
-    wf_read_fields(lua, 1, "polyhedron", fields, 0, NULL);
+    wf_read_fields(lua, 1, "polyhedron", fields, 0, &(char){0});
     lua_getfield(lua, 1, "planes");
     if (lua_type(lua, -1) != LUA_TTABLE || !lua_rawlen(lua, -1))
         wf_scene_error(lua, "polyhedron", "planes must be a list of planes {nx, ny, nz, d}");
@@ -477,8 +477,7 @@ static int call_keyframes(lua_State *lua) {
     for (int k = 0; k < count; k++) {
         lua_rawgeti(lua, 2, k + 1);
         wf_key key = read_key(lua);
-        const wf_key *before = (const wf_key *)b->keys.items + b->keys.count - 1;
-        if (k && !(before->time_s < key.time_s))
+        if (k && !(((const wf_key *)b->keys.items)[b->keys.count - 1].time_s < key.time_s))
             wf_scene_error(lua, "keyframes", "key %d must be later than the one before it",
                            k + 1);
         *(wf_key *)wf_list_grow(lua, &b->keys, sizeof key, 1) = key;

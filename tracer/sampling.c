@@ -111,28 +111,27 @@ static int64_t field_of(const wf_sampling *s, int64_t instant) {
     return s->raster.scan == WF_SEGMENTED ? 2 * instant : instant;
 }
 
+/* Periods begin at the instants of fields, wherever windows lie about them. */
 void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int64_t *last) {
-    *first = *last = instant_of(s, field);
-    if (s->periods) *last += (int64_t)ceil(s->tau + s->skew) - 1;
+    int64_t instant = instant_of(s, field);
+    double from = -s->anchor * s->tau;
+    *first = *last = instant;
+    if (!s->periods) return;
+    *first += (int64_t)floor(from);
+    *last += (int64_t)ceil(from + s->tau + s->skew) - 1;
 }
 
-static bool look(wf_sampling *s, wf_rational base_s, double width, double anchor) {
-    const wf_window_of_time window = {
-        .base_s = base_s,
-        .width_fields = width,
-        .anchor = anchor,
-        .late_s = s->periods ? 0 : s->skew * wf_ratio_value(period_of(s))};
-    return wf_tracer_look(s->tracer, &window, s->desc.skip);
-}
-
-/* Periods begin where windows do: before their instants where these are in the middle or at the
- * end. Times are of the field whose instant the unit's number counts. */
 bool wf_sampling_look(wf_sampling *s, int64_t unit) {
     wf_rational period = period_of(s), base = wf_ratio(unit * period.num, period.den);
+    const wf_window_of_time window = {.base_s = base,
+                                      .width_fields = s->periods ? 1 : s->tau,
+                                      .anchor = s->periods ? 0 : s->anchor,
+                                      .late_s =
+                                          s->periods ? 0 : s->skew * wf_ratio_value(period)};
     s->unit = unit;
     s->field = field_of(s, unit);
-    s->start = -s->anchor * s->tau;
-    return s->periods ? look(s, base, 1, -s->start) : look(s, base, s->tau, s->anchor);
+    s->start = s->periods ? 0 : -s->anchor * s->tau;
+    return wf_tracer_look(s->tracer, &window, s->desc.skip);
 }
 
 /* ---- Rows ---- */
@@ -168,6 +167,12 @@ static float inside(float v, int cell) {
     return at < end ? at : nextafterf(end, 0);
 }
 
+/* Times are whole millionths (2^-20) of a field, so that a float holds them whichever field
+ * they are counted from. */
+static double on_grid(double t) {
+    return floor(t * 0x1p20) * 0x1p-20;
+}
+
 /* The samples of a row's cells within the tile; set: which of several. */
 static size_t draw_cells(const tile *t, int row, row_time time, int set) {
     wf_sampling_scratch *c = t->c;
@@ -177,14 +182,16 @@ static size_t draw_cells(const tile *t, int row, row_time time, int set) {
         wf_sampler_draw(t->s->sampler, (wf_cell){t->s->unit, i, row, set}, c->x + first,
                         c->y + first, c->f + first);
         for (size_t k = first; k < first + count; k++) {
-            double at = time.from + (double)c->f[k] * (time.to - time.from);
+            double at = on_grid(time.from + (double)c->f[k] * (time.to - time.from));
             c->x[n] = inside(c->x[k], i);
             c->y[n] = inside(c->y[k], row);
             c->t[n] = (float)at;
             c->trace_x[n] = (double)c->x[n];
             c->trace_y[n] = (double)c->y[n];
             c->trace_f[n] = (double)c->f[k];
-            if (t->s->tau > 0 && !t->s->periods)
+            if (t->s->periods)
+                c->trace_f[n] = at;
+            else if (t->s->tau > 0)
                 c->trace_f[n] = (at - time.late - t->s->start) / t->s->tau;
             n += within_reach(t->s, c->trace_y[n], at);
         }
