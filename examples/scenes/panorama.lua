@@ -91,7 +91,17 @@ local propeller = union(ellipsoid{center={1, 0, 0}, radii={0.03, 0.5, 0.07}},
 add(union(union(plane):material(metal), propeller):rotate{axis={1, 0, 0}, degrees=-12}
     :translate{-7, 5.3, 0}:velocity{2.2, 0.05, 0})
 
--- ---- Flags: stripes that stand ----
+-- ---- A painter's easel, and flags ----
+
+add(box{min={-0.9, 0, -0.05}, max={0.9, 1.35, 0}}:rotate{axis={1, 0, 0}, degrees=-14}
+    :translate{-5.9, 0.7, 3.2}:rotate{degrees=12, center={-5.9, 0, 3.2}}:material{ambient=0.2,
+    texture=image{{0.3, 0.2, 0.1}, {0.3, 0.2, 0.1}, file="pictures/scenes/carousel.png",
+                  corner={-0.8, 1.27, 0}, width=1.6}})
+for side = -1, 1, 2 do
+    add(cone{from={-5.9 + 0.9 * side, 0, 3.4}, to={-5.9 + 0.15 * side, 2.4, 2.7}, radii={0.05, 0.03}}
+        :material(paint(0.4, 0.25, 0.12)))
+end
+
 
 for n = -1, 1, 2 do
     add(cylinder{from={5.2 * n, 0, -3}, to={5.2 * n, 4.6, -3}, radius=0.05}:material(gold))
