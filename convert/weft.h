@@ -89,6 +89,66 @@ WEFT_API void weft_job_cancel(weft_job *job);
  * long as the job or until its next run. */
 WEFT_API const char *weft_job_report(const weft_job *job);
 
+/* ---- Samples from a renderer ----------------------------------------------------------------
+ */
+
+/* Fields that gather samples as a renderer makes them: how they look, and where frames go, are
+ * the job's options. Memory is that of the fields in hand: weft_fields_until says which are
+ * done with. One thread at a time. */
+typedef struct weft_fields weft_fields;
+
+/* Samples in any order, one array for each property, borrowed for the call. */
+typedef struct weft_samples {
+    size_t count;
+    const float *x,
+        *y;         /* raster coordinates: pixels and frame lines from the upper left corner */
+    const float *t; /* field periods after the instant of `field` */
+    int64_t field;  /* from 0 */
+    const float *red, *green, *blue; /* scene-linear */
+    const float *weight;             /* NULL: all count alike */
+} weft_samples;
+
+/* A regular grid of samples at one instant, over a rectangle of the raster: sample (i, j) is at
+ * the middle of its cell. */
+typedef struct weft_tile {
+    double x0, y0, x1, y1; /* of the raster */
+    double t;              /* field periods after the instant of `field` */
+    int64_t field;
+    int width, height; /* samples */
+    const float *rgb;  /* [height][width][3], scene-linear */
+} weft_tile;
+
+/* A finished field; rgb is valid during the call. */
+typedef struct weft_field {
+    int64_t index;                    /* from 0 */
+    int first_line, line_step, lines; /* its lines in the frame: first_line + l * line_step */
+    int width_px;
+    const float *rgb; /* [lines][width_px][3], scene-linear */
+} weft_field;
+typedef void weft_field_fn(const weft_field *field, void *user);
+
+/* Fields of `frames` frames. Each is handed to fn (NULL: to nobody) and, if the job has an
+ * output, written there as weft_job_run would. The job must not be changed until
+ * weft_fields_free. */
+WEFT_API weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn,
+                                     void *user, weft_fields **out, weft_error *err);
+/* Frees what is left; an output that was not finished is taken back. NULL is fine. */
+WEFT_API void weft_fields_free(weft_fields *fields);
+
+/* WEFT_USAGE if a sample belongs to a field that is finished. */
+WEFT_API weft_status weft_fields_push(weft_fields *fields, const weft_samples *samples,
+                                      weft_error *err);
+WEFT_API weft_status weft_fields_push_tile(weft_fields *fields, const weft_tile *tile,
+                                           weft_error *err);
+
+/* Promises that no sample before the instant of `field` comes any more: fields whose windows
+ * end by then are finished. A pixel that no sample reached is an error, or what --on-empty
+ * says. */
+WEFT_API weft_status weft_fields_until(weft_fields *fields, int64_t field, weft_error *err);
+
+/* Finishes all fields and the output. */
+WEFT_API weft_status weft_fields_finish(weft_fields *fields, weft_error *err);
+
 /* ---- Options ---- */
 
 /* One option of weft_job_set, for help texts and bindings. */
