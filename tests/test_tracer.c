@@ -209,6 +209,40 @@ static void wheel_on_a_cart(void **state) {
     }
 }
 
+/* How much every other line stands out from its neighbours, over rows first <= j < end. */
+static double comb(const float *frame, int width, int first, int end) {
+    double sum = 0;
+    for (int j = first; j < end; j++)
+        for (int i = 0; i < width; i++) {
+            const float *v = frame + 3 * (j * width + i) + 1;
+            sum += fabs(2 * (double)v[0] - (double)v[-3 * width] - (double)v[3 * width]);
+        }
+    return sum / (width * (end - first));
+}
+
+/* Figure 6: figures that move are serrated when the two fields of a frame are woven, what
+ * stands is not, and neither is when both fields are of one instant. */
+static void serration(void **state) {
+    scene_job job = {.path = "carousel.lua",
+                     .raster = "360x244@30i,par=10:11",
+                     .aperture = "box",
+                     .sampler = WF_SAMPLER_SOBOL,
+                     .width = {0, 1},
+                     .count = 16};
+    (void)state;
+    float *woven = scene_frame(&job, 5);
+    job.raster = "360x244@30psf,par=10:11";
+    float *still = scene_frame(&job, 5);
+    double figures[2] = {comb(woven, 360, 100, 190), comb(still, 360, 100, 190)};
+    double ground[2] = {comb(woven, 360, 236, 243), comb(still, 360, 236, 243)};
+    print_message("comb: figures %.4f woven, %.4f of one instant; ground %.4f and %.4f\n",
+                  figures[0], figures[1], ground[0], ground[1]);
+    assert_true(figures[0] > 1.5 * figures[1]);
+    assert_true(fabs(ground[0] - ground[1]) < 0.05 * ground[1]);
+    free(woven);
+    free(still);
+}
+
 /* ---- What must not change a picture ---- */
 
 static const char busy[] =
@@ -405,6 +439,7 @@ int main(void) {
         cmocka_unit_test(own_temporal_width),
         cmocka_unit_test(scan_skew),
         cmocka_unit_test(wheel_on_a_cart),
+        cmocka_unit_test(serration),
         cmocka_unit_test(skipping),
         cmocka_unit_test(long_windows),
         cmocka_unit_test(powers_of_two),

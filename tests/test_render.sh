@@ -1,0 +1,133 @@
+#!/bin/bash
+# Scenes through the program as its users run it: the shipped scenes, the same bytes on any number
+# of threads and in chunks, samples stored and taken up again, other renderers' samples, and what
+# is refused.
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0 failed=0 skipped=0
+scenes=$WEFT_SOURCE/examples/scenes
+small=(--raster '180x122@30i,tff,par=10:11')
+
+# check NAME COMMAND..: the command must succeed.
+check()
+{
+    local name=$1
+    shift
+    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
+}
+
+# exits CODE COMMAND..: the command must end with this status; what it says goes to `said`.
+exits()
+{
+    local code=$1
+    shift
+    "$@" 2>said
+    local got=$?
+    [ $got = "$code" ] || { echo "status $got, not $code: $*"; cat said; return 1; }
+}
+
+has() { command -v "$1" >/dev/null || { skipped=$((skipped + 1)); echo "skipped: no $1"; return 1; }; }
+refuses() { local words=$1; shift; exits 1 "$@" && grep -q -- "$words" said; }
+weft() { timeout 120 "$WEFT" "$@"; }
+
+# ---- The scenes that ship ----
+
+for scene in "$scenes"/*.lua; do
+    name=$(basename "$scene" .lua)
+    check "$name renders" exits 0 weft render "$scene" "${small[@]}" --frames 0-1 --samples 4 \
+        --set n=1000 -o "$name.y4m"
+    check "$name makes no message" test ! -s said
+    check "$name is two frames" test "$(wc -c <"$name.y4m")" -gt $((2 * 180 * 122 * 4))
+done
+
+# ---- The same bytes ----
+
+render=("$scenes/carousel.lua" "${small[@]}" --samples 8 --aperture diamond)
+check "one thread" exits 0 weft render "${render[@]}" --frames 0-3 --threads 1 -o one.y4m
+check "three threads" exits 0 weft render "${render[@]}" --frames 0-3 --threads 3 -o three.y4m
+check "threads do not show" cmp one.y4m three.y4m
+for n in 1 2 3; do
+    check "chunk $n" exits 0 weft render "${render[@]}" --frames 0-3 --chunk $n/3 -o chunk$n.y4m
+done
+cat chunk1.y4m chunk2.y4m chunk3.y4m >chunks.y4m
+check "chunks do not show" cmp one.y4m chunks.y4m
+check "another seed" exits 0 weft render "${render[@]}" --frames 0-3 --seed 1 -o seed.y4m
+check "a seed shows" bash -c '! cmp -s one.y4m seed.y4m'
+
+# ---- Stored and taken up again ----
+
+# near A B: two EXR pictures are within the resampler's bound.
+near() { oiiotool "$1" "$2" --fail 2e-6 --diff >diff.log 2>&1 || { cat diff.log; return 1; }; }
+
+for how in '--aperture shaped' '--aperture diamond' '--aperture box --shutter-position center --temporal-width 3/2' \
+    '--aperture notch --scan-skew 1 --temporal-width 0'; do
+    # shellcheck disable=SC2086
+    set -- "$scenes/carousel.lua" "${small[@]}" --samples 8 --frames 0-2 $how --overwrite
+    check "render $how" exits 0 weft render "$@" -o r.####.exr
+    check "trace $how" exits 0 weft trace "$@" -o d.####.exr
+    # shellcheck disable=SC2086
+    check "convert $how" exits 0 weft convert d.####.exr "${small[@]}" $how --overwrite -o c.####.exr
+    if has oiiotool; then
+        for n in 0 1 2; do check "frame $n of $how" near r.000$n.exr c.000$n.exr; done
+    fi
+done
+check "subframes" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --frames 0 \
+    --oversample 2x2x4 -o sub.####.exr
+check "eight of them" test "$(find . -name 'sub.*.exr' | wc -l)" = 8
+check "which say what they are" exits 0 weft convert sub.####.exr "${small[@]}" -o sub.y4m
+check "a raster that is not theirs" refuses '180x122' weft convert d.####.exr -o x.y4m
+check "samples of half a field" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --samples 8 \
+    --frames 0 --overwrite -o d.####.exr
+rm d.0001.exr d.0002.exr
+check "samples that do not reach" refuses 'no sample reached' weft convert d.####.exr "${small[@]}" \
+    --temporal-width 1/60 -o x.y4m
+check "nothing is left of it" test ! -e x.y4m
+check "or the nearest" exits 3 weft convert d.####.exr "${small[@]}" --temporal-width 1/60 \
+    --on-empty nearest -o x.y4m
+
+# ---- Other renderers ----
+
+check "a renderer in C builds" ${CC:-cc} -O1 "$WEFT_SOURCE/examples/write_samples.c" -o write_samples \
+    $(pkg-config --cflags --libs OpenEXR)
+check "and writes" ./write_samples c.0000.exr 0 180 122
+check "samples of C" exits 0 weft convert c.0000.exr "${small[@]}" --aperture box -o from_c.exr
+if has python3; then
+    check "Python writes" python3 "$WEFT_SOURCE/examples/write_samples.py" p.0000.exr 0 180 122
+    check "samples of Python" exits 0 weft convert p.0000.exr "${small[@]}" --aperture box -o from_p.exr
+    # The same picture from other samples at random.
+    has oiiotool && check "are those of C" \
+        bash -c 'oiiotool from_c.exr from_p.exr --diff | awk "/RMS/ { exit !(\$4 < 0.05) }"'
+fi
+
+# ---- Refused ----
+
+check "no scene" exits 2 weft render -o x.y4m --overwrite
+check "no such scene" refuses 'none.lua' weft render none.lua -o x.y4m --overwrite
+echo 'camera{eye={0, 0, 1}, look_at={0, 0, 0}}
+add(sphere{raduis=1})' >wrong.lua
+check "line and suggestion" refuses 'wrong.lua:2: sphere: .*did you mean radius' \
+    weft render wrong.lua -o x.y4m --overwrite
+echo 'while true do end' >endless.lua
+check "an endless loop" refuses 'endless.lua:1: .*steps' weft render endless.lua -o x.y4m --overwrite \
+    --scene-steps 1000000
+head -c 100 /dev/urandom >noise.lua
+check "noise" exits 1 weft render noise.lua -o x.y4m --overwrite
+check "frames with steps" exits 2 weft render "$scenes/still.lua" --frames 0-8x2 -o x.y4m --overwrite
+check "samples that are video" exits 2 weft trace "$scenes/still.lua" -o x.y4m --overwrite
+check "an option of another command" exits 2 weft render "$scenes/still.lua" --fit crop -o x.y4m
+echo 'camera{eye={0, 0, 1}, look_at={0, 0, 0}}' >nothing.lua
+check "a scene of nothing" exits 0 weft render nothing.lua "${small[@]}" --samples 1 -o nothing.y4m
+
+# ---- Interrupted ----
+
+"$WEFT" render "$scenes/carousel.lua" -o long.y4m 2>/dev/null &
+sleep 1
+kill -INT $!
+wait $!
+check "SIGINT" test $? = 130
+check "leaves nothing" test ! -e long.y4m
+
+echo "$passed passed, $failed failed, $skipped skipped"
+[ $failed = 0 ]
