@@ -198,10 +198,36 @@ wf_shaft wf_shaft_of_rays(const wf_rays *r, double most_s) {
     return wf_shaft_new(o, d, most_s);
 }
 
+/* The box of m (c +- h) + d, by middle and half size. */
+static void carry_box(const wf_affine *a, const double d[3], const wf_bounds *b,
+                      wf_bounds *out) {
+    double c[3], h[3];
+    for (int k = 0; k < 3; k++) {
+        c[k] = (b->low[k] + b->high[k]) / 2;
+        h[k] = (b->high[k] - b->low[k]) / 2;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double *m = a->m[i];
+        double x = m[0] * c[0], y = m[1] * c[1], z = m[2] * c[2];
+        double half = fabs(m[0]) * h[0] + fabs(m[1]) * h[1] + fabs(m[2]) * h[2];
+        double middle = x + y + z + d[i];
+        half += (fabs(x) + fabs(y) + fabs(z) + fabs(d[i]) + half) * SLACK;
+        out->low[i] = middle - half;
+        out->high[i] = middle + half;
+    }
+}
+
 wf_shaft wf_shaft_place(const wf_affine *map, const wf_shaft *f) {
-    wf_affine turn = *map;
-    turn.d = (wf_vec){0, 0, 0};
-    return wf_shaft_new(wf_bounds_place(map, f->o), wf_bounds_place(&turn, f->d), f->most);
+    static const double none[3] = {0, 0, 0};
+    const double d[3] = {map->d.x, map->d.y, map->d.z};
+    wf_shaft out = {.most = f->most};
+    carry_box(map, d, &f->o, &out.o);
+    carry_box(map, none, &f->d, &out.d);
+    for (int k = 0; k < 3; k++) {
+        out.rise[k] = 1 / out.d.high[k];
+        out.fall[k] = 1 / out.d.low[k];
+    }
+    return out;
 }
 
 /* room + s d >= 0: of the s in from..to, those that hold. inverse: 1 / d. */

@@ -4,6 +4,7 @@
 #include "tracer/cull.h"
 #include "tracer/light.h"
 #include "tracer/packet.h"
+#include "tracer/texture.h"
 #include "tracer/tracer.h"
 #include "tracer/tree.h"
 
@@ -17,6 +18,7 @@ struct wf_tracer {
     const wf_light_ops *light;
     wf_intersect_fn *const *intersect;
     wf_normals_fn *const *normals;
+    wf_texture_fn *const *textures;
     wf_part *parts;
     bool *sibling; /* [object]: it has several parts */
     int part_count, most_stack;
@@ -131,11 +133,5 @@ bool wf_shade(const wf_tracer *tracer, wf_trace_scratch *scratch, int level);
 /* Light along the rays of a level's packet, which has begun to be carried. */
 bool wf_look_along(const wf_tracer *tracer, wf_trace_scratch *scratch, int level,
                    const wf_culls *culls);
-
-/* ---- texture.c ---- */
-
-/* Colors of a texture at points of the space that it was written in. */
-void wf_texture_colors(const wf_scene *scene, const wf_texture *texture,
-                       const wf_points *points, int count, double *const rgb[3]);
 
 #endif

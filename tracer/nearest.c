@@ -88,25 +88,13 @@ typedef struct search {
     _Alignas(64) double rounding[WF_PACKET];
 } search;
 
-/* Of the size of where rays start, as their parameter counts. */
-static void set_rounding(search *q) {
-    const wf_rays *r = &q->packet->rays;
-    for (int i = 0; i < WF_PACKET; i++) {
-        double o = fmax(fabs(r->ox[i]), fmax(fabs(r->oy[i]), fabs(r->oz[i])));
-        double d = fmax(fabs(r->dx[i]), fmax(fabs(r->dy[i]), fabs(r->dz[i])));
-        q->rounding[i] = o / d * WF_ROUNDING;
-    }
-}
-
 static bool make_runs(const search *q, int solid, wf_runs *runs) {
     const wf_solid *form = &q->t->scene->solids[solid];
     const wf_rays *rays = wf_carry_rays(q->t, q->s, q->packet, form->op);
     wf_rays local;
     if (!rays) return false;
     q->t->packet->place(&form->inverse, rays, &local);
-    int most = wf_solid_type_of(form->kind)->most_runs;
-    for (int i = 0; most < 2 && i < WF_PACKET; i++)
-        runs->in[1][i] = HUGE_VAL, runs->out[1][i] = -HUGE_VAL;
+    if (wf_solid_type_of(form->kind)->most_runs < 2) q->t->packet->no_second_run(runs);
     local.count = WF_PACKET;
     q->t->intersect[form->kind](form, q->t->scene->planes, &local, runs);
     return true;
@@ -145,13 +133,6 @@ static bool try_part(search *q, const wf_culled *part) {
     else
         q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
     return true;
-}
-
-static double farthest(const search *q) {
-    double far = 0;
-    for (int i = 0; i < q->packet->rays.count; i++)
-        far = q->hits->s[i] > far ? q->hits->s[i] : far;
-    return far;
 }
 
 /* ---- Rays that start inside a union ---- */
@@ -240,7 +221,7 @@ bool wf_nearest(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet
                 const wf_culls *culls, bool whole, wf_hits *hits) {
     search q = {.t = t, .s = s, .packet = packet, .culls = culls, .hits = hits};
     int around[MOST_AROUND], count = 0, object = -1;
-    set_rounding(&q);
+    t->packet->rounding(&packet->rays, WF_ROUNDING, q.rounding);
     while (whole && count < MOST_AROUND) {
         if (!find_around(&q, object, &object)) return false;
         if (object < 0) break;
@@ -249,7 +230,7 @@ bool wf_nearest(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet
     }
     for (size_t n = 0; n < culls->part_count; n++) {
         const wf_culled *part = &culls->part[n];
-        if (part->near > farthest(&q)) break;
+        if (part->near > t->packet->farthest(hits->s)) break;
         if (count && is_around(around, count, t->parts[part->part].object)) continue;
         if (!try_part(&q, part)) return false;
     }

@@ -31,6 +31,11 @@ typedef struct wf_packet_ops {
      * comes before. */
     void (*nearer)(const wf_runs *runs, const double *rounding, int solid, wf_hits *hits);
     void (*unit)(wf_points *directions);
+    /* How far rounding may reach along each ray for the size of where it starts: a share of
+     * origin over direction. */
+    void (*rounding)(const wf_rays *rays, double share, double *rounding);
+    double (*farthest)(const double *s);
+    void (*no_second_run)(wf_runs *runs);
     /* The boxes of all places' origins and directions. */
     void (*box)(const wf_rays *rays, wf_bounds *o, wf_bounds *d);
 } wf_packet_ops;

@@ -180,5 +180,33 @@ static void box(const wf_rays *r, wf_bounds *o, wf_bounds *d) {
     span(r->dz, &d->low[2], &d->high[2]);
 }
 
-const wf_packet_ops TABLE = {place,         drift_in, spin_in, turn, spin_out,
-                             place_normals, reach,    nearer,  unit, box};
+/* ---- Bounds along rays ---- */
+
+static inline double largest(double x, double y, double z) {
+    double a = fabs(x), b = fabs(y), c = fabs(z);
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+static void rounding(const wf_rays *restrict r, double share, double *restrict out) {
+    for (int i = 0; i < WF_PACKET; i++)
+        out[i] = largest(r->ox[i], r->oy[i], r->oz[i]) / largest(r->dx[i], r->dy[i], r->dz[i]) *
+                 share;
+}
+
+static double farthest(const double *s) {
+    double low, high;
+    span(s, &low, &high);
+    return high;
+}
+
+static void no_second_run(wf_runs *runs) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        runs->in[1][i] = HUGE_VAL;
+        runs->out[1][i] = -HUGE_VAL;
+    }
+}
+
+const wf_packet_ops TABLE = {place,         drift_in,      spin_in, turn, spin_out,
+                             place_normals, reach,         nearer,  unit, rounding,
+                             farthest,      no_second_run, box};

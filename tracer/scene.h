@@ -52,7 +52,8 @@ typedef enum wf_texture_kind {
     WF_TEXTURE_CHECKER,
     WF_TEXTURE_STRIPE,
     WF_TEXTURE_ZONEPLATE,
-    WF_TEXTURE_IMAGE
+    WF_TEXTURE_IMAGE,
+    WF_TEXTURES
 } wf_texture_kind;
 
 /* Textures live in the space in which the solid was written, before any operator. */

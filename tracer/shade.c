@@ -80,8 +80,8 @@ static void find_colors(const shading *h, const wf_solid *solid, const wf_materi
         rays = &written;
     }
     h->t->packet->reach(rays, h->l->hits.s, &p);
-    wf_texture_colors(h->t->scene, &m->texture, &p, h->count,
-                      (double *const[3]){rgb[0], rgb[1], rgb[2]});
+    h->t->textures[m->texture.kind](h->t->scene, &m->texture, &p, h->count,
+                                    (double *const[3]){rgb[0], rgb[1], rgb[2]});
 }
 
 static void paint_material(shading *h, const wf_material *m, int64_t index) {

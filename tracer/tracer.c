@@ -111,6 +111,7 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
     t->light = wf_light_best();
     t->intersect = wf_intersect_best();
     t->normals = wf_normals_best();
+    t->textures = wf_textures_best();
     t->own_widths = any_op(scene, true);
     for (int n = 0; n < scene->light_count; n++)
         t->lights_move |= wf_op_moves(scene, scene->lights[n].op);

@@ -16,7 +16,7 @@ ours()
 {
     "$build/weft" render "$here/../../examples/scenes/carousel.lua" --raster 720x486@30p,par=10:11 \
         --aperture line --temporal-width 0 --samples 60 --frames 0 --threads 2 --overwrite \
-        -o ours.png --report ours.json
+        -o ours.y4m --report ours.json
     awk -F'[:,]' '/"tracer"/ { for (i = 1; i < NF; i++) if ($i ~ /"rays"/) rays = $(i + 1) }
         /"seconds"/ { for (i = 1; i < NF; i++) if ($i ~ /"wall"/) wall = $(i + 1) }
         END { print rays / wall }' ours.json
