@@ -107,7 +107,9 @@ wf_sampling_desc wf_render_sampling(const weft_job *job, const wf_scene *scene) 
                               .sampler = job->sampler,
                               .count = (int)job->samples,
                               .seed = (uint64_t)job->seed,
-                              .skip = job->skip};
+                              .skip = job->skip,
+                              .error =
+                                  wf_ratio_given(job->error) ? wf_ratio_value(job->error) : 0};
 }
 
 typedef struct renderer {
@@ -173,10 +175,15 @@ static void tell(const weft_job *job, const renderer *r, const wf_gathering *g,
     report->resample_s = counts.resample_s;
     report->color_s = counts.color_s;
     report->write_s = counts.write_s;
+    wf_error_sum all = {0, 0};
     for (int t = 0; t < r->threads; t++) {
+        wf_error_sum one = wf_sampling_error(r->scratch[t]);
+        all.square += one.square;
+        all.cells += one.cells;
         wf_trace_counts traced = wf_sampling_counted(r->scratch[t]);
         wf_report_traced(report, &traced);
     }
+    if (all.cells > 0) report->error_estimate = sqrt(all.square / all.cells);
 }
 
 static weft_status render(weft_job *job, wf_setup *s, const wf_scene *scene, wf_report *report,

@@ -87,6 +87,29 @@ check "nothing is left of it" test ! -e x.y4m
 check "or the nearest" exits 3 weft convert d.####.exr "${small[@]}" --temporal-width 1/60 \
     --on-empty nearest -o x.y4m
 
+# ---- An error instead of a number of samples ----
+
+# holds E A B REPORT: the difference of two pictures is at most the estimate, and that at most E.
+holds()
+{
+    local is says
+    is=$(oiiotool "$2" "$3" --diff | awk '/RMS/ { print $4 }')
+    says=$(grep -o '"error_estimate": [0-9.e-]*' "$4" | awk '{ print $2 }')
+    echo "error $1: estimated $says, is $is"
+    awk -v e="$1" -v is="$is" -v says="$says" 'BEGIN { exit !(is <= says && says <= e && is > 0) }'
+}
+
+if has oiiotool; then
+    for aperture in line shaped; do
+        set -- "$scenes/carousel.lua" "${small[@]}" --frames 0 --aperture $aperture --to rec709 --overwrite
+        check "converged" exits 0 weft render "$@" --samples 1024 --seed 9 -o converged.exr
+        for error in 0.02 0.005; do
+            check "to $error" exits 0 weft render "$@" --error $error -o spent.exr --report spent.json
+            check "$aperture reaches $error" holds $error converged.exr spent.exr spent.json
+        done
+    done
+fi
+
 # ---- Other renderers ----
 
 check "a renderer in C builds" ${CC:-cc} -O1 "$WEFT_SOURCE/examples/write_samples.c" -o write_samples \

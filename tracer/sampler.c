@@ -125,6 +125,15 @@ static void draw_sobol(const wf_sampler *s, const uint32_t seed[3], float *const
     for (int d = 0; d < 3; d++) s->ops->scramble(s->reversed[d], s->count, seed[d], out[d]);
 }
 
+void wf_sampler_draw_more(const wf_sampler *s, wf_cell cell, int first, int count, float *x,
+                          float *y, float *f) {
+    uint32_t seed[3];
+    float *const out[3] = {x, y, f};
+    find_seeds(s, cell, seed);
+    for (int d = 0; d < 3; d++)
+        s->ops->scramble(s->reversed[d] + first, count, seed[d], out[d]);
+}
+
 /* Strata in x and y, each with a place of its own in time. */
 static void draw_jitter(const wf_sampler *s, const uint32_t seed[3], float *const out[3]) {
     s->ops->random(s->count, seed[0], out[0]);

@@ -31,4 +31,9 @@ void wf_sampler_free(wf_sampler *sampler); /* NULL is fine */
  * within the window. Arrays of [count]. The same cell of the same sampler has the same ones. */
 void wf_sampler_draw(const wf_sampler *sampler, wf_cell cell, float *x, float *y, float *f);
 
+/* Samples first <= i < first + count of a cell's Sobol set, whatever the sampler's kind: a set
+ * is drawn piece by piece as it turns out how many are needed. */
+void wf_sampler_draw_more(const wf_sampler *sampler, wf_cell cell, int first, int count,
+                          float *x, float *y, float *f);
+
 #endif

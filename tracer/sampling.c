@@ -1,30 +1,8 @@
-#include "tracer/sampling.h"
+#include "tracer/sampling_inside.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Tiles of cells: what can be seen in one is looked for once. */
-#define TILE_WIDTH  16
-#define TILE_HEIGHT 8
-
-struct wf_sampling {
-    wf_sampling_desc desc;
-    wf_tracer *tracer;
-    wf_sampler *sampler;
-    wf_raster raster;
-    double tau, skew, anchor;
-    bool periods; /* units are field periods */
-    int64_t unit, field;
-    double start; /* of the unit's window, field periods from the field's instant */
-};
-
-struct wf_sampling_scratch {
-    wf_trace_scratch *trace;
-    size_t room; /* samples */
-    float *x, *y, *f, *t, *rgb[3];
-    double *trace_x, *trace_y, *trace_f;
-};
 
 /* ---- Life ---- */
 
@@ -33,16 +11,17 @@ static double anchor_of(wf_position position) {
     return anchors[position];
 }
 
-static wf_rational period_of(const wf_sampling *s) {
+wf_rational wf_sampling_period(const wf_sampling *s) {
     return wf_raster_field_period(&s->raster);
 }
 
 static bool make_parts(wf_sampling *s) {
     const wf_raster *r = &s->raster;
     const wf_view view = {r->width_px, r->lines, wf_ratio_value(r->pixel_aspect),
-                          wf_ratio_value(period_of(s))};
+                          wf_ratio_value(wf_sampling_period(s))};
     s->tracer = wf_tracer_new(s->desc.scene, &view);
-    s->sampler = wf_sampler_new(s->desc.sampler, s->desc.count, s->desc.seed);
+    int count = s->desc.error > 0 ? WF_MOST_EACH : s->desc.count;
+    s->sampler = wf_sampler_new(s->desc.sampler, count, s->desc.seed);
     return s->tracer && s->sampler;
 }
 
@@ -60,6 +39,7 @@ wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
     }
     /* A sample that two fields share would be at two fractions of their windows. */
     s->periods = s->tau > 1 && !wf_tracer_own_widths(s->tracer);
+    s->instants = s->skew > 0 && !(s->tau > 0);
     return s;
 }
 
@@ -73,7 +53,8 @@ void wf_sampling_free(wf_sampling *s) {
 wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *s) {
     wf_sampling_scratch *c = calloc(1, sizeof *c);
     if (!c) return NULL;
-    c->room = TILE_WIDTH * (size_t)s->desc.count;
+    size_t fixed = TILE_WIDTH * (size_t)s->desc.count;
+    c->room = fixed > WF_MOST_EACH ? fixed : WF_MOST_EACH;
     float **const floats[] = {&c->x, &c->y, &c->f, &c->t, &c->rgb[0], &c->rgb[1], &c->rgb[2]};
     double **const doubles[] = {&c->trace_x, &c->trace_y, &c->trace_f};
     bool room = (c->trace = wf_trace_scratch_new(s->tracer)) != NULL;
@@ -93,7 +74,12 @@ void wf_sampling_scratch_free(wf_sampling_scratch *c) {
     double *const doubles[] = {c->trace_x, c->trace_y, c->trace_f};
     for (size_t n = 0; n < sizeof floats / sizeof *floats; n++) free(floats[n]);
     for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++) free(doubles[n]);
+    wf_adaptive_free(&c->kept);
     free(c);
+}
+
+wf_error_sum wf_sampling_error(const wf_sampling_scratch *c) {
+    return c->error;
 }
 
 wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *c) {
@@ -122,7 +108,7 @@ void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int6
 }
 
 bool wf_sampling_look(wf_sampling *s, int64_t unit) {
-    wf_rational period = period_of(s), base = wf_ratio(unit * period.num, period.den);
+    wf_rational period = wf_sampling_period(s), base = wf_ratio(unit * period.num, period.den);
     const wf_window_of_time window = {.base_s = base,
                                       .width_fields = s->periods ? 1 : s->tau,
                                       .anchor = s->periods ? 0 : s->anchor,
@@ -136,15 +122,9 @@ bool wf_sampling_look(wf_sampling *s, int64_t unit) {
 
 /* ---- Rows ---- */
 
-/* What a row's samples are drawn for: times from..to field periods after the field's instant,
- * and how late its own instant is. */
-typedef struct row_time {
-    double from, to, late;
-} row_time;
-
 /* Whether a sample at y, q from a window's middle is within an aperture of any line: the
  * diamonds leave gaps between them. */
-static bool within_reach(const wf_sampling *s, double y, double t) {
+bool wf_within_reach(const wf_sampling *s, double y, double t) {
     const wf_aperture *a = &s->desc.gather.aperture;
     if (!a->kind->couples_vq || !(s->tau > 0) || s->skew > 0 || s->periods) return true;
     int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, s->field);
@@ -154,27 +134,24 @@ static bool within_reach(const wf_sampling *s, double y, double t) {
     return false;
 }
 
-typedef struct tile {
-    const wf_sampling *s;
-    wf_sampling_scratch *c;
-    int x0, x1;
-    wf_sampling_emit_fn *emit;
-    void *user;
-} tile;
-
-static float inside(float v, int cell) {
+float wf_in_cell(float v, int cell) {
     float at = (float)cell + v, end = (float)(cell + 1);
     return at < end ? at : nextafterf(end, 0);
 }
 
 /* Times are whole millionths (2^-20) of a field, so that a float holds them whichever field
  * they are counted from. */
-static double on_grid(double t) {
+double wf_on_time_grid(double t) {
     return floor(t * 0x1p20) * 0x1p-20;
 }
 
+double wf_window_fraction(const wf_sampling *s, double t, double late, double f) {
+    if (s->periods) return t;
+    return s->tau > 0 ? (t - late - s->start) / s->tau : f;
+}
+
 /* The samples of a row's cells within the tile; set: which of several. */
-static size_t draw_cells(const tile *t, int row, row_time time, int set) {
+static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set) {
     wf_sampling_scratch *c = t->c;
     size_t n = 0, count = (size_t)t->s->desc.count;
     for (int i = t->x0; i < t->x1; i++) {
@@ -182,24 +159,20 @@ static size_t draw_cells(const tile *t, int row, row_time time, int set) {
         wf_sampler_draw(t->s->sampler, (wf_cell){t->s->unit, i, row, set}, c->x + first,
                         c->y + first, c->f + first);
         for (size_t k = first; k < first + count; k++) {
-            double at = on_grid(time.from + (double)c->f[k] * (time.to - time.from));
-            c->x[n] = inside(c->x[k], i);
-            c->y[n] = inside(c->y[k], row);
+            double at = wf_on_time_grid(time.from + (double)c->f[k] * (time.to - time.from));
+            c->x[n] = wf_in_cell(c->x[k], i);
+            c->y[n] = wf_in_cell(c->y[k], row);
             c->t[n] = (float)at;
             c->trace_x[n] = (double)c->x[n];
             c->trace_y[n] = (double)c->y[n];
-            c->trace_f[n] = (double)c->f[k];
-            if (t->s->periods)
-                c->trace_f[n] = at;
-            else if (t->s->tau > 0)
-                c->trace_f[n] = (at - time.late - t->s->start) / t->s->tau;
-            n += within_reach(t->s, c->trace_y[n], at);
+            c->trace_f[n] = wf_window_fraction(t->s, at, time.late, (double)c->f[k]);
+            n += wf_within_reach(t->s, c->trace_y[n], at);
         }
     }
     return n;
 }
 
-static bool trace_cells(const tile *t, int row, row_time time, int set) {
+static bool trace_cells(const wf_tile *t, int row, wf_row_time time, int set) {
     wf_sampling_scratch *c = t->c;
     size_t count = draw_cells(t, row, time, set);
     const wf_trace_samples traced = {
@@ -207,7 +180,7 @@ static bool trace_cells(const tile *t, int row, row_time time, int set) {
         .x = c->trace_x,
         .y = c->trace_y,
         .f = c->trace_f,
-        .late_s = t->s->periods ? 0 : time.late * wf_ratio_value(period_of(t->s)),
+        .late_s = t->s->periods ? 0 : time.late * wf_ratio_value(wf_sampling_period(t->s)),
         .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
     if (!wf_trace(t->s->tracer, c->trace, &traced)) return false;
     const wf_samples samples = {.count = count,
@@ -235,34 +208,42 @@ static double late_of(const wf_sampling *s, double line) {
 }
 
 /* An instant that goes down the picture is another one for each line. */
-static bool trace_instants(const tile *t, int row, int first, int end) {
+static bool trace_instants(const wf_tile *t, int row, int first, int end) {
     int step = wf_raster_line_step(&t->s->raster);
     int parity = wf_raster_parity(&t->s->raster, t->s->field);
     for (int l = first; l < end; l++) {
         double late = late_of(t->s, parity + l * step);
-        if (!trace_cells(t, row, (row_time){late, late, late}, l - first)) return false;
+        if (!trace_cells(t, row, (wf_row_time){late, late, late}, l - first)) return false;
     }
     return true;
 }
 
-static bool trace_row(const tile *t, int row) {
-    const wf_sampling *s = t->s;
+bool wf_find_row_time(const wf_sampling *s, int row, wf_row_time *time) {
     int first, end, step = wf_raster_line_step(&s->raster);
     int parity = wf_raster_parity(&s->raster, s->field);
-    if (s->periods) return trace_cells(t, row, (row_time){s->start, s->start + 1, 0}, 0);
+    *time = (wf_row_time){s->start, s->start + 1, 0};
+    if (s->periods) return true;
     lines_of(s, row, &first, &end);
-    if (first >= end) return true;
-    if (s->skew > 0 && !(s->tau > 0)) return trace_instants(t, row, first, end);
     double low = late_of(s, parity + first * step),
            high = late_of(s, parity + (end - 1) * step);
-    row_time time = {s->start + low, s->start + s->tau + high, (low + high) / 2};
-    return trace_cells(t, row, time, 0);
+    *time = (wf_row_time){s->start + low, s->start + s->tau + high, (low + high) / 2};
+    return first < end;
 }
 
-static bool trace_tile(const tile *t, int first, int end) {
+static bool trace_row(const wf_tile *t, int row) {
+    wf_row_time time;
+    int first, end;
+    if (!wf_find_row_time(t->s, row, &time)) return true;
+    if (!t->s->instants) return trace_cells(t, row, time, 0);
+    lines_of(t->s, row, &first, &end);
+    return trace_instants(t, row, first, end);
+}
+
+static bool trace_tile(const wf_tile *t, int first, int end) {
     const double x[2] = {t->x0, t->x1}, y[2] = {first, end};
     wf_trace_tile found;
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &found)) return false;
+    if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, &found);
     for (int row = first; row < end; row++)
         if (!trace_row(t, row)) return false;
     return true;
@@ -274,8 +255,8 @@ bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int fi
     for (int row = first; row < end; row += TILE_HEIGHT)
         for (int x = 0; x < width; x += TILE_WIDTH) {
             int last = row + TILE_HEIGHT < end ? row + TILE_HEIGHT : end;
-            tile t = {s,    scratch, x, x + TILE_WIDTH < width ? x + TILE_WIDTH : width,
-                      emit, user};
+            wf_tile t = {s,    scratch, x, x + TILE_WIDTH < width ? x + TILE_WIDTH : width,
+                         emit, user};
             if (!trace_tile(&t, row, last)) return false;
         }
     return true;

@@ -15,6 +15,8 @@ typedef struct wf_sampling_desc {
     int count; /* samples a pixel, frame line and field */
     uint64_t seed;
     bool skip;
+    double error; /* RMS, display-encoded, to be reached with as many samples as each place
+                     needs instead of count; 0: count */
 } wf_sampling_desc;
 
 /* One unit of time after another is looked at; between two looks any number of threads draws
@@ -45,6 +47,13 @@ bool wf_sampling_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch,
                       int end, wf_sampling_emit_fn *emit, void *user);
 
 wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *scratch);
+
+/* What the adaptive sampling thinks of its own error: mean square over `cells` cells, as sums.
+ */
+typedef struct wf_error_sum {
+    double square, cells;
+} wf_error_sum;
+wf_error_sum wf_sampling_error(const wf_sampling_scratch *scratch);
 
 /* One subframe: samples in a regular grid at an instant, rows first <= j < end of a picture of
  * `across` x `down` of them, scene-linear, [end - first][across][3]. */
