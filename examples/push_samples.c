@@ -1,7 +1,8 @@
 /* A renderer in few lines that hands its samples to weft as it makes them, field by field: nothing
  * is stored but the video.
  *
- *   cc push_samples.c $(pkg-config --cflags --libs weft) -lm -o push_samples && ./push_samples out.y4m */
+ *   cc push_samples.c $(pkg-config --cflags --libs weft) -lm -o push_samples
+ *   ./push_samples out.y4m */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

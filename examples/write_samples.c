@@ -1,8 +1,8 @@
-/* A renderer in few lines that writes a sample buffer: a disc that moves over a gradient, 64 samples
- * a pixel and frame at random, in a deep EXR file that weft converts.
- *
+/* A renderer in few lines that writes a sample buffer: a disc that moves over a gradient, 64
+ * samples a pixel and frame at random, in a deep EXR file that weft converts.
  *   cc write_samples.c $(pkg-config --cflags --libs OpenEXR) -o write_samples
- *   ./write_samples disc.0000.exr 0 180 122 && weft convert disc.0000.exr --raster 180x122@30i .. */
+ *   ./write_samples disc.0000.exr 0 180 122
+ *   weft convert disc.0000.exr --raster 180x122@30i -o disc.png */
 #include <openexr.h>
 #include <stdint.h>
 #include <stdio.h>
