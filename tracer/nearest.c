@@ -217,22 +217,86 @@ static bool is_around(const int *around, int count, int object) {
 
 #define MOST_AROUND 8
 
+static bool nearest_of(search *q, bool whole) {
+    const wf_tracer *t = q->t;
+    int around[MOST_AROUND], count = 0, object = -1;
+    t->packet->rounding(&q->packet->rays, WF_ROUNDING, q->rounding);
+    while (whole && count < MOST_AROUND) {
+        if (!find_around(q, object, &object)) return false;
+        if (object < 0) break;
+        if (!try_union(q, object)) return false;
+        around[count++] = object;
+    }
+    for (size_t n = 0; n < q->culls->part_count; n++) {
+        const wf_culled *part = &q->culls->part[n];
+        if (part->near > t->packet->farthest(q->hits->s)) break;
+        if (count && is_around(around, count, t->parts[part->part].object)) continue;
+        if (!try_part(q, part)) return false;
+    }
+    return true;
+}
+
+/* ---- Packets that meet too much ---- */
+
+/* Each end of each solid is tried against all of them: beyond this many, two packets of half as
+ * many rays, each of which meets fewer, are cheaper than one. */
+#define MANY_SOLIDS 192
+
+/* Lanes first .. of a packet and its hits; the rest are copies of the last. */
+static void take_lanes(const wf_packet *from, const wf_hits *hits, int first, int count,
+                       wf_packet *to, wf_hits *to_hits) {
+    const double *const in[] = {from->rays.ox, from->rays.oy, from->rays.oz, from->rays.dx,
+                                from->rays.dy, from->rays.dz, from->f,       hits->s};
+    double *const out[] = {to->rays.ox, to->rays.oy, to->rays.oz, to->rays.dx,
+                           to->rays.dy, to->rays.dz, to->f,       to_hits->s};
+    to->rays.count = count;
+    to->late_s = from->late_s;
+    for (int i = 0; i < WF_PACKET; i++) {
+        int lane = first + (i < count ? i : count - 1);
+        for (size_t n = 0; n < sizeof in / sizeof *in; n++) out[n][i] = in[n][lane];
+        to_hits->solid[i] = hits->solid[lane];
+        to_hits->entering[i] = hits->entering[lane];
+    }
+}
+
+/* Of one part: parts of one solid each are many and cheap. */
+static int most_solids(const wf_culls *culls) {
+    int most = 0;
+    for (size_t n = 0; n < culls->part_count; n++)
+        if (culls->part[n].solid_count > most) most = culls->part[n].solid_count;
+    return most;
+}
+
+/* Hits of lanes first ..; *helps: fewer solids are met than by the whole packet, or else
+ * nothing is done. */
+static bool nearest_of_half(const search *q, bool whole, int first, int count, bool *helps) {
+    wf_packet half;
+    wf_hits hits;
+    wf_culls culls = {0};
+    take_lanes(q->packet, q->hits, first, count, &half, &hits);
+    wf_shaft shaft = wf_shaft_of_rays(&half.rays, HUGE_VAL);
+    wf_carry_begin(q->s);
+    bool good = wf_find_again(q->t, q->s, &half, &shaft, q->culls, &culls);
+    if (!*helps) *helps = 4 * most_solids(&culls) < 3 * most_solids(q->culls);
+    if (good && *helps) good = wf_nearest(q->t, q->s, &half, &culls, whole, &hits);
+    for (int i = 0; *helps && i < count; i++) {
+        q->hits->s[first + i] = hits.s[i];
+        q->hits->solid[first + i] = hits.solid[i];
+        q->hits->entering[first + i] = hits.entering[i];
+    }
+    wf_culls_free(&culls);
+    return good;
+}
+
 bool wf_nearest(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
                 const wf_culls *culls, bool whole, wf_hits *hits) {
     search q = {.t = t, .s = s, .packet = packet, .culls = culls, .hits = hits};
-    int around[MOST_AROUND], count = 0, object = -1;
-    t->packet->rounding(&packet->rays, WF_ROUNDING, q.rounding);
-    while (whole && count < MOST_AROUND) {
-        if (!find_around(&q, object, &object)) return false;
-        if (object < 0) break;
-        if (!try_union(&q, object)) return false;
-        around[count++] = object;
-    }
-    for (size_t n = 0; n < culls->part_count; n++) {
-        const wf_culled *part = &culls->part[n];
-        if (part->near > t->packet->farthest(hits->s)) break;
-        if (count && is_around(around, count, t->parts[part->part].object)) continue;
-        if (!try_part(&q, part)) return false;
-    }
-    return true;
+    int count = packet->rays.count, half = count / 2;
+    bool helps = false;
+    if (!t->skip || count < 2 || most_solids(culls) <= MANY_SOLIDS)
+        return nearest_of(&q, whole);
+    bool good = nearest_of_half(&q, whole, 0, half, &helps);
+    if (good && helps) good = nearest_of_half(&q, whole, half, count - half, &helps);
+    wf_carry_begin(s); /* what has been carried is of the halves */
+    return helps || !good ? good : nearest_of(&q, whole);
 }
