@@ -8,7 +8,9 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 passed=0 failed=0 skipped=0
 scenes=$WEFT_SOURCE/examples/scenes
-small=(--raster '180x122@30i,tff,par=10:11')
+width=180 lines=122
+[ -z "${WEFT_SANITIZE:-}" ] || width=48 lines=36 # the sanitizers take ten times as long
+small=(--raster "${width}x$lines@30i,tff,par=10:11")
 
 # check NAME COMMAND..: the command must succeed.
 check()
@@ -30,7 +32,7 @@ exits()
 
 has() { command -v "$1" >/dev/null || { skipped=$((skipped + 1)); echo "skipped: no $1"; return 1; }; }
 refuses() { local words=$1; shift; exits 1 "$@" && grep -q -- "$words" said; }
-weft() { timeout 120 "$WEFT" "$@"; }
+weft() { timeout 250 "$WEFT" "$@"; }
 
 # ---- The scenes that ship ----
 
@@ -39,7 +41,7 @@ for scene in "$scenes"/*.lua; do
     check "$name renders" exits 0 weft render "$scene" "${small[@]}" --frames 0-1 --samples 4 \
         --set n=1000 -o "$name.y4m"
     check "$name makes no message" test ! -s said
-    check "$name is two frames" test "$(wc -c <"$name.y4m")" -gt $((2 * 180 * 122 * 4))
+    check "$name is two frames" test "$(wc -c <"$name.y4m")" -gt $((2 * width * lines * 4))
 done
 
 # ---- The same bytes ----
@@ -77,7 +79,7 @@ check "subframes" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --fram
     --oversample 2x2x4 -o sub.####.exr
 check "eight of them" test "$(find . -name 'sub.*.exr' | wc -l)" = 8
 check "which say what they are" exits 0 weft convert sub.####.exr "${small[@]}" -o sub.y4m
-check "a raster that is not theirs" refuses '180x122' weft convert d.####.exr -o x.y4m
+check "a raster that is not theirs" refuses "${width}x$lines" weft convert d.####.exr -o x.y4m
 check "samples of half a field" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --samples 8 \
     --frames 0 --overwrite -o d.####.exr
 rm d.0001.exr d.0002.exr
@@ -114,10 +116,10 @@ fi
 
 check "a renderer in C builds" ${CC:-cc} -O1 "$WEFT_SOURCE/examples/write_samples.c" -o write_samples \
     $(pkg-config --cflags --libs OpenEXR)
-check "and writes" ./write_samples c.0000.exr 0 180 122
+check "and writes" ./write_samples c.0000.exr 0 $width $lines
 check "samples of C" exits 0 weft convert c.0000.exr "${small[@]}" --aperture box -o from_c.exr
 if has python3; then
-    check "Python writes" python3 "$WEFT_SOURCE/examples/write_samples.py" p.0000.exr 0 180 122
+    check "Python writes" python3 "$WEFT_SOURCE/examples/write_samples.py" p.0000.exr 0 $width $lines
     check "samples of Python" exits 0 weft convert p.0000.exr "${small[@]}" --aperture box -o from_p.exr
     # The same picture from other samples at random.
     has oiiotool && check "are those of C" \
