@@ -23,6 +23,7 @@ typedef struct tracing {
     wf_sampling_scratch **scratch; /* [threads] */
     weft_status status;            /* of the threads: the first failure */
     weft_error error;
+    atomic_flag failed;
     atomic_bool stop;
     int64_t done, total;
     double started_s;
@@ -32,7 +33,7 @@ typedef struct tracing {
 
 static bool make(tracing *t, weft_job *job, const wf_scene *scene, int units) {
     wf_sampling_desc desc = wf_render_sampling(job, scene);
-    *t = (tracing){.job = job, .scene = scene, .units = units};
+    *t = (tracing){.job = job, .scene = scene, .units = units, .failed = ATOMIC_FLAG_INIT};
     t->threads = wf_gathering_threads(job);
     t->started_s = wf_now_s();
     t->sampling = calloc((size_t)units, sizeof(wf_sampling *));
@@ -75,8 +76,7 @@ static weft_status status_of(const tracing *t, weft_error *err) {
 }
 
 static void fail(tracing *t, weft_status status, const weft_error *why) {
-#pragma omp critical
-    if (!t->status) {
+    if (!atomic_flag_test_and_set(&t->failed)) {
         t->status = status;
         t->error = *why;
     }
