@@ -76,8 +76,8 @@ static void lay_over_background(const weft_job *job, const wf_deep_line *line, s
         for (size_t i = 0; i < count; i++) rgb[c][i] += (1 - alpha[i]) * job->background[c];
 }
 
-static weft_status band(void *self, int thread, int first, int end, wf_emit_fn *emit,
-                        void *user, weft_error *err) {
+static weft_status band(void *self, int thread, int first, int end, const wf_receiver *receiver,
+                        weft_error *err) {
     samples *s = self;
     wf_deep_buffers *b = &s->buffers[thread];
     int per_frame = wf_raster_fields_per_frame(&s->job->raster);
@@ -95,7 +95,7 @@ static weft_status band(void *self, int thread, int first, int end, wf_emit_fn *
             .field = s->unit * per_frame,
             .rgb = {l->channel[WF_DEEP_R], l->channel[WF_DEEP_G], l->channel[WF_DEEP_B]},
             .weight = l->channel[WF_DEEP_WEIGHT]};
-        if (count) emit(user, &block);
+        if (count) receiver->samples(receiver->user, &block);
     }
     return WEFT_OK;
 }

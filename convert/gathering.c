@@ -192,9 +192,9 @@ static void gather_band(wf_gathering *g, int thread, int64_t unit, int first, st
         end = first + BAND_ROWS < lines ? first + BAND_ROWS : lines;
     double start = wf_now_s();
     weft_status status = make_strips(g, unit, first, end, s, &w->error);
+    const wf_receiver receiver = {s, add_to_strips};
     if (!status)
-        status =
-            g->source.band(g->source.self, thread, first, end, add_to_strips, s, &w->error);
+        status = g->source.band(g->source.self, thread, first, end, &receiver, &w->error);
     if (status) fail(g, w, status);
     w->source_s += wf_now_s() - start;
 }

@@ -9,8 +9,6 @@
 /* From samples to frames: whoever has samples gives them unit by unit of time and band by band
  * of rows; fields gather them and are finished when their last unit is done. */
 
-typedef void wf_emit_fn(void *user, const wf_samples *samples);
-
 /* A source of samples. Functions but `band` are called by one thread. */
 typedef struct wf_sample_source {
     void *self;
@@ -18,9 +16,9 @@ typedef struct wf_sample_source {
     void (*units)(void *self, int64_t field, int64_t *first, int64_t *last);
     /* Turns to a unit; an absent one is an error or has no samples. */
     weft_status (*begin)(void *self, int64_t unit, weft_error *err);
-    /* Emits the samples of rows first <= j < end; thread: whose buffers to use. */
-    weft_status (*band)(void *self, int thread, int first, int end, wf_emit_fn *emit,
-                        void *user, weft_error *err);
+    /* Hands over the samples of rows first <= j < end; thread: whose buffers to use. */
+    weft_status (*band)(void *self, int thread, int first, int end, const wf_receiver *receiver,
+                        weft_error *err);
 } wf_sample_source;
 
 typedef struct wf_gathering wf_gathering;

@@ -130,10 +130,10 @@ static weft_status begin(void *self, int64_t unit, weft_error *err) {
                : wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
 }
 
-static weft_status band(void *self, int thread, int first, int end, wf_emit_fn *emit,
-                        void *user, weft_error *err) {
+static weft_status band(void *self, int thread, int first, int end, const wf_receiver *receiver,
+                        weft_error *err) {
     const renderer *r = self;
-    return wf_sampling_rows(r->sampling, r->scratch[thread], first, end, emit, user)
+    return wf_sampling_rows(r->sampling, r->scratch[thread], first, end, receiver)
                ? WEFT_OK
                : wf_fail(err, WEFT_NO_MEMORY, "no memory for rays");
 }

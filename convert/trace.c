@@ -114,20 +114,25 @@ static bool grow(row_samples *r, size_t more) {
     return true;
 }
 
-/* Blocks are of one row. */
-static void keep(void *user, const wf_samples *s) {
-    band *b = user;
-    int j = (int)floorf(s->y[0]) - b->first;
+/* Samples first <= k < end of a block, which are of one row. */
+static bool keep_row(band *b, const wf_samples *s, int j, size_t first, size_t end) {
     row_samples *r = &b->row[b->unit * b->rows + j];
     const float *const from[KEPT] = {s->rgb[0], s->rgb[1], s->rgb[2], s->t, s->x, s->y};
-    if (!grow(r, s->count)) {
-        b->failed = true;
-        return;
-    }
+    if (!grow(r, end - first)) return false;
     for (int c = 0; c < KEPT; c++)
-        memcpy(r->v[c] + r->count, from[c], s->count * sizeof(float));
-    for (size_t i = 0; i < s->count; i++) r->v[3][r->count + i] += (float)b->late;
-    r->count += s->count;
+        memcpy(r->v[c] + r->count, from[c] + first, (end - first) * sizeof(float));
+    for (size_t k = r->count; k < r->count + end - first; k++) r->v[3][k] += (float)b->late;
+    r->count += end - first;
+    return true;
+}
+
+static void keep(void *user, const wf_samples *s) {
+    band *b = user;
+    for (size_t first = 0, end; first < s->count; first = end) {
+        float row = floorf(s->y[first]);
+        for (end = first + 1; end < s->count && floorf(s->y[end]) == row;) end++;
+        b->failed |= !keep_row(b, s, (int)row - b->first, first, end);
+    }
 }
 
 static int pixel_of(float x, int width) {
@@ -181,10 +186,11 @@ static weft_status trace_band(tracing *t, int thread, const double *late, int un
     b->units = units;
     b->row = calloc((size_t)(units * b->rows), sizeof *b->row);
     b->failed = !b->row;
+    const wf_receiver receiver = {.user = b, .samples = keep};
     for (b->unit = 0; !b->failed && b->unit < units; b->unit++) {
         b->late = late[b->unit];
         b->failed |= !wf_sampling_rows(t->sampling[b->unit], t->scratch[thread], b->first,
-                                       b->first + b->rows, keep, b);
+                                       b->first + b->rows, &receiver);
     }
     weft_status status = b->failed ? wf_fail(err, WEFT_NO_MEMORY, "no memory for samples") : 0;
     for (int j = 0; !status && j < b->rows; j++) {

@@ -60,10 +60,24 @@ size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
     return (size_t)lines * (size_t)d->raster->width_px * sizeof(wf_pixel_sum);
 }
 
+wf_patch wf_gather_patch(const wf_gather_desc *d, int64_t field, const double x[2],
+                         const double y[2]) {
+    double reach = d->aperture.kind->reach_u;
+    int width = d->raster->width_px;
+    double low = ceil(x[0] - reach - 0.5), high = floor(x[1] + reach - 0.5);
+    wf_patch p = {low > 0 ? (int)low : 0, high < width - 1 ? (int)high + 1 : width, 0, 0};
+    wf_gather_lines(d, field, y[0], y[1], &p.first, &p.end);
+    return p;
+}
+
 wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int end) {
+    return wf_gather_new_patch(d, field, (wf_patch){0, d->raster->width_px, first, end});
+}
+
+wf_gather *wf_gather_new_patch(const wf_gather_desc *d, int64_t field, wf_patch patch) {
     wf_gather *g = calloc(1, sizeof *g);
     if (!g) return NULL;
-    *g = (wf_gather){.desc = *d, .field = field, .first = first, .end = end};
+    *g = (wf_gather){.desc = *d, .field = field, .held = patch};
     g->parity = wf_raster_parity(d->raster, field);
     g->line_step = wf_raster_line_step(d->raster);
     g->field_lines = wf_raster_field_lines(d->raster, g->parity);
@@ -71,7 +85,8 @@ wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int 
     g->middle = middle_of(d);
     g->half = half_window(d);
     g->skew_a_line = skew_of(d) / d->raster->lines;
-    g->sum = calloc(1, wf_gather_bytes(d, end - first) + 1);
+    size_t pixels = (size_t)(patch.end - patch.first) * (size_t)(patch.right - patch.left);
+    g->sum = calloc(pixels + 1, sizeof *g->sum);
     if (g->sum) return g;
     free(g);
     return NULL;
@@ -81,10 +96,6 @@ void wf_gather_free(wf_gather *g) {
     if (!g) return;
     free(g->sum);
     free(g);
-}
-
-static wf_pixel_sum *line_sums(const wf_gather *g, int line) {
-    return g->sum + (size_t)(line - g->first) * (size_t)g->desc.raster->width_px;
 }
 
 /* ---- Adding ---- */
@@ -97,18 +108,27 @@ static wf_gather_fn *const levels[] = {
 #endif
 };
 
+double wf_gather_apart(const wf_gather *g, int64_t field) {
+    return instants_apart(&g->desc, field, g->field);
+}
+
 void wf_gather_add(wf_gather *g, const wf_samples *samples) {
-    levels[wf_isa_levels() - 1](g, samples, instants_apart(&g->desc, samples->field, g->field));
+    levels[wf_isa_levels() - 1](g, samples, wf_gather_apart(g, samples->field));
+}
+
+static wf_patch overlap(const wf_patch *a, const wf_patch *b) {
+    return (wf_patch){.left = a->left > b->left ? a->left : b->left,
+                      .right = a->right < b->right ? a->right : b->right,
+                      .first = a->first > b->first ? a->first : b->first,
+                      .end = a->end < b->end ? a->end : b->end};
 }
 
 void wf_gather_merge(wf_gather *g, const wf_gather *from) {
-    size_t width = (size_t)g->desc.raster->width_px;
-    int first = g->first > from->first ? g->first : from->first;
-    int end = g->end < from->end ? g->end : from->end;
-    for (int line = first; line < end; line++) {
-        wf_pixel_sum *to = line_sums(g, line);
-        const wf_pixel_sum *add = line_sums(from, line);
-        for (size_t i = 0; i < width; i++) {
+    wf_patch both = overlap(&g->held, &from->held);
+    for (int line = both.first; line < both.end; line++) {
+        wf_pixel_sum *to = wf_gather_sums(g, line);
+        const wf_pixel_sum *add = wf_gather_sums(from, line);
+        for (int i = both.left; i < both.right; i++) {
             to[i].r += add[i].r;
             to[i].g += add[i].g;
             to[i].b += add[i].b;
@@ -120,7 +140,7 @@ void wf_gather_merge(wf_gather *g, const wf_gather *from) {
 /* ---- Finishing ---- */
 
 int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
-    const wf_pixel_sum *sum = line_sums(g, line);
+    const wf_pixel_sum *sum = wf_gather_sums(g, line);
     int empty = -1;
     for (int i = 0; i < g->desc.raster->width_px; i++) {
         bool reached = sum[i].weight != 0;
@@ -134,12 +154,12 @@ int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
 }
 
 bool wf_gather_reached(const wf_gather *g, int line, int pixel) {
-    return line_sums(g, line)[pixel].weight != 0;
+    return wf_gather_sums(g, line)[pixel].weight != 0;
 }
 
 /* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
 static int nearest_in_line(const wf_gather *g, int line, int pixel) {
-    const wf_pixel_sum *sum = line_sums(g, line);
+    const wf_pixel_sum *sum = wf_gather_sums(g, line);
     int width = g->desc.raster->width_px;
     for (int d = 0; d < width; d++) {
         if (pixel - d >= 0 && sum[pixel - d].weight != 0) return pixel - d;
@@ -151,14 +171,14 @@ static int nearest_in_line(const wf_gather *g, int line, int pixel) {
 bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
     const wf_pixel_sum *best = NULL;
     double best_distance = HUGE_VAL;
-    for (int l = g->first; l < g->end; l++) {
+    for (int l = g->held.first; l < g->held.end; l++) {
         double down = (double)(l - line) * g->line_step;
         if (down * down >= best_distance) continue;
         int near = nearest_in_line(g, l, pixel);
         double across = near - pixel, distance = down * down + across * across;
         if (near < 0 || distance >= best_distance) continue;
         best_distance = distance;
-        best = &line_sums(g, l)[near];
+        best = &wf_gather_sums(g, l)[near];
     }
     if (!best) return false;
     rgb[0] = (float)(best->r / best->weight);

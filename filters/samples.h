@@ -24,7 +24,26 @@ typedef struct wf_samples {
     int64_t field;
     const float *rgb[3]; /* scene-linear, over the background */
     const float *weight; /* NULL: 1 each */
+    const float *extent; /* NULL, or pixels along x, 1 at most, about x, that each stands for:
+                            an aperture takes as much of a sample as it sees of that */
+
+    /* Of what does not move: seen alike at all times from..to, as field periods after the
+     * instant; t is not read. Each counts for the part of that time in which an aperture sees
+     * it. */
+    bool still;
+    double from, to;
 } wf_samples;
+
+/* Whoever takes samples. */
+typedef struct wf_receiver {
+    void *user;
+    void (*samples)(void *user, const wf_samples *samples);
+} wf_receiver;
+
+/* Lines first <= l < end of a field, pixels left <= i < right of each. */
+typedef struct wf_patch {
+    int left, right, first, end;
+} wf_patch;
 
 /* Sums of some lines of one field, in double. One thread at a time; gathers are independent.
  * The bits depend on the order in which samples are added and gathers merged, and on nothing
@@ -42,16 +61,22 @@ void wf_gather_lines(const wf_gather_desc *desc, int64_t field, double y0, doubl
 void wf_gather_fields(const wf_gather_desc *desc, int64_t field, double t0, double t1,
                       int64_t *first, int64_t *last);
 
-/* Lines first <= l < end of a field, all sums 0. NULL when memory is out. desc is copied; the
- * raster must outlive the gather. */
+/* The pixels that samples of x0 <= x <= x1 and y0 <= y <= y1 can reach. */
+wf_patch wf_gather_patch(const wf_gather_desc *desc, int64_t field, const double x[2],
+                         const double y[2]);
+
+/* Lines first <= l < end of a field, or a patch of it, all sums 0. NULL when memory is out.
+ * desc is copied; the raster must outlive the gather. */
 wf_gather *wf_gather_new(const wf_gather_desc *desc, int64_t field, int first, int end);
+wf_gather *wf_gather_new_patch(const wf_gather_desc *desc, int64_t field, wf_patch patch);
 void wf_gather_free(wf_gather *gather); /* NULL is fine */
 size_t wf_gather_bytes(const wf_gather_desc *desc, int lines);
 
-/* Adds samples; those that reach no pixel of these lines add nothing. */
+/* Adds samples; those that reach no pixel that is held add nothing. */
 void wf_gather_add(wf_gather *gather, const wf_samples *samples);
 
-/* Adds the sums of `from`, of the same field, where they overlap. */
+/* Adds the sums of `from` where they overlap; of the same field, or of one that is to look like
+ * it: of the same parity. */
 void wf_gather_merge(wf_gather *gather, const wf_gather *from);
 
 /* Line l as R, G, B of width_px samples. Returns -1, or the first pixel that no sample reached

@@ -18,9 +18,14 @@
 #define RUN   64 /* samples taken together */
 #define LANES 8
 
+#define MOST_EXTENT 1.0 /* pixels that a sample may stand for */
+
 /* Samples of one cell; those from count up to a multiple of LANES weigh nothing. */
 typedef struct run {
     int count, padded;
+    bool still, wide;
+    double lasts;                    /* how long still ones are seen */
+    _Alignas(64) double extent[RUN]; /* where wide: half of each */
     _Alignas(64) double x[RUN], y[RUN], t[RUN], light[4][RUN]; /* weight * (r, g, b, 1) */
     _Alignas(64) double v[RUN], q[RUN], height[RUN], half_u[RUN];
 } run;
@@ -41,12 +46,16 @@ static int same_cell(const wf_samples *s, size_t first) {
 
 static void load(const wf_samples *s, size_t first, double apart, run *r) {
     r->padded = (r->count + LANES - 1) / LANES * LANES;
+    r->still = s->still;
+    r->wide = s->extent;
+    r->lasts = s->to - s->from;
     for (int i = 0; i < r->padded; i++) {
         size_t at = first + (size_t)(i < r->count ? i : 0);
         double w = i >= r->count ? 0 : s->weight ? (double)s->weight[at] : 1;
         r->x[i] = (double)s->x[at];
         r->y[i] = (double)s->y[at];
-        r->t[i] = (double)s->t[at] - apart;
+        r->t[i] = (s->still ? s->from : (double)s->t[at]) - apart;
+        r->extent[i] = s->extent ? (double)s->extent[at] / 2 : 0;
         r->light[0][i] = w * (double)s->rgb[0][at];
         r->light[1][i] = w * (double)s->rgb[1][at];
         r->light[2][i] = w * (double)s->rgb[2][at];
@@ -65,8 +74,21 @@ static inline double total(lanes v) {
     return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
+static inline lanes larger(lanes a, lanes b) {
+    lane_mask over = a > b;
+    return (lanes)(((lane_mask)a & over) | ((lane_mask)b & ~over));
+}
+
 static inline lanes where(lane_mask mask, lanes v) {
     return (lanes)((lane_mask)v & mask);
+}
+
+/* The share that each has of what stretches along x: for the widest aperture that is all. */
+static inline lanes part_of(const run *r, int i, lanes u) {
+    lanes half = *(const lanes *)&r->half_u[i], extent = *(const lanes *)&r->extent[i];
+    lanes from = larger(u - extent, -half), to = -larger(-u - extent, -half);
+    lanes part = (to - from) / (2 * extent);
+    return where((part > 0) & (extent > 0), part);
 }
 
 static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
@@ -75,6 +97,7 @@ static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
     for (int i = 0; i < r->padded; i += LANES) {
         lanes u = *(const lanes *)&r->x[i] - left, half = *(const lanes *)&r->half_u[i];
         lanes h = where((u <= half) & (-u <= half), *(const lanes *)&r->height[i]);
+        if (r->wide) h = *(const lanes *)&r->height[i] * part_of(r, i, u);
         red += h * *(const lanes *)&r->light[0][i];
         green += h * *(const lanes *)&r->light[1][i];
         blue += h * *(const lanes *)&r->light[2][i];
@@ -84,6 +107,18 @@ static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
     sum->g += total(green);
     sum->b += total(blue);
     sum->weight += total(weight);
+}
+
+/* The part of its time for which the aperture sees what stands still. */
+static double part_seen(const wf_gather *g, const run *r, int i) {
+    double half = g->half, q = r->q[i];
+    if (!(r->lasts > 0)) return 1;
+    if (g->desc.aperture.kind->couples_vq) half *= 1 - fabs(r->v[i]);
+    return fmax(fmin(q + r->lasts, half) - fmax(q, -half), 0) / r->lasts;
+}
+
+static void find_parts_seen(const wf_gather *g, run *r) {
+    for (int i = 0; i < r->padded; i++) r->height[i] *= part_seen(g, r, i);
 }
 
 /* An instant's aperture has only u and v, and the diamond's is then the tent that it tends to.
@@ -97,17 +132,17 @@ static void find_heights(const wf_gather *g, run *r, int j) {
         r->q[i] = r->t[i] - late;
     }
     static const double none[RUN];
+    bool timeless = instant || r->still;
     wf_profiles_best()[a->kind->profile](a, instant ? 1 : g->tau, r->padded, r->v,
-                                         instant ? none : r->q, r->height, r->half_u);
+                                         timeless ? none : r->q, r->height, r->half_u);
+    if (r->still && !instant) {
+        find_parts_seen(g, r);
+        return;
+    }
     for (int i = 0; i < r->padded; i++) {
         double height = tent ? r->height[i] * (1 - fabs(r->v[i])) : r->height[i];
         r->height[i] = fabs(r->q[i]) <= half ? height : 0;
     }
-}
-
-static inline lanes larger(lanes a, lanes b) {
-    lane_mask over = a > b;
-    return (lanes)(((lane_mask)a & over) | ((lane_mask)b & ~over));
 }
 
 static inline double largest(lanes v) {
@@ -139,13 +174,14 @@ static void find_ends(const double *v, int padded, double *low, double *high) {
 }
 
 static void add_to_line(wf_gather *g, run *r, int line, double low, double high) {
-    int width = g->desc.raster->width_px;
     find_heights(g, r, g->parity + line * g->line_step);
     double half = widest(r);
     if (half < 0) return;
+    if (r->wide) half += MOST_EXTENT / 2;
     double first = ceil(low - 0.5 - half), last = floor(high - 0.5 + half);
-    int from = first > 0 ? (int)first : 0, to = last < width - 1 ? (int)last : width - 1;
-    wf_pixel_sum *sums = g->sum + (size_t)(line - g->first) * (size_t)width;
+    int from = first > g->held.left ? (int)first : g->held.left;
+    int to = last < g->held.right - 1 ? (int)last : g->held.right - 1;
+    wf_pixel_sum *sums = wf_gather_sums(g, line);
     for (int i = from; i <= to; i++) add_to_pixel(r, i, &sums[i]);
 }
 
@@ -157,8 +193,8 @@ static void add_run(wf_gather *g, run *r) {
     if (!(fabs(low[0]) < 1e9 && fabs(low[1]) < 1e9)) return;
     double from = ceil((low[1] - reach - 0.5 - g->parity) / g->line_step);
     double to = floor((high[1] + reach - 0.5 - g->parity) / g->line_step);
-    int first = from > g->first ? (int)from : g->first;
-    int last = to < g->end - 1 ? (int)to : g->end - 1;
+    int first = from > g->held.first ? (int)from : g->held.first;
+    int last = to < g->held.end - 1 ? (int)to : g->held.end - 1;
     for (int line = first; line <= last; line++) add_to_line(g, r, line, low[0], high[0]);
 }
 

@@ -61,7 +61,7 @@ void scene_refusal(const char *text, char *why, size_t why_size) {
 
 /* ---- Fields ---- */
 
-static void gather_emitted(void *user, const wf_samples *samples) {
+static void gather_samples(void *user, const wf_samples *samples) {
     wf_gather_add(user, samples);
 }
 
@@ -77,8 +77,9 @@ static void gather_unit(const wf_sampling *sampling, const wf_gather_desc *desc,
             int end = first + BAND < lines ? first + BAND : lines, line, line_end;
             wf_gather_lines(desc, field, first, end, &line, &line_end);
             wf_gather *band = wf_gather_new(desc, field, line, line_end);
+            const wf_receiver receiver = {band, gather_samples};
             if (!scratch || !band ||
-                !wf_sampling_rows(sampling, scratch, first, end, gather_emitted, band))
+                !wf_sampling_rows(sampling, scratch, first, end, &receiver))
                 abort();
 #pragma omp ordered
             wf_gather_merge(all, band);

@@ -234,7 +234,8 @@ static void what_is_reached(void **state) {
             wf_raster raster;
             wf_gather_desc d = describe(&s, &raster);
             float x = 4, y = uniform(&seed, -3, 19), t = uniform(&seed, -3, 3), one = 1;
-            wf_samples sample = {1, &x, &y, &t, 10, {&one, &one, &one}, NULL};
+            wf_samples sample = {
+                .count = 1, .x = &x, .y = &y, .t = &t, .field = 10, .rgb = {&one, &one, &one}};
             int64_t first_field, last_field;
             wf_gather_fields(&d, 10, (double)t, (double)t, &first_field, &last_field);
             for (int64_t n = 2; n < 20; n++) {
@@ -261,7 +262,7 @@ static void empty_pixels(void **state) {
     wf_raster raster;
     wf_gather_desc d = describe(&s, &raster);
     float x[2] = {1.5f, 6.5f}, y[2] = {0.5f, 2.5f}, t[2] = {0.5f, 0.5f}, red[2] = {1, 2};
-    wf_samples samples = {2, x, y, t, 0, {red, red, red}, NULL};
+    wf_samples samples = {.count = 2, .x = x, .y = y, .t = t, .rgb = {red, red, red}};
     wf_gather *g = wf_gather_new(&d, 0, 0, 2);
     float line[3][8], *rgb[3] = {line[0], line[1], line[2]}, nearest[3];
     assert_false(wf_gather_nearest(g, 0, 3, nearest));

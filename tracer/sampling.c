@@ -20,7 +20,7 @@ static bool make_parts(wf_sampling *s) {
     const wf_view view = {r->width_px, r->lines, wf_ratio_value(r->pixel_aspect),
                           wf_ratio_value(wf_sampling_period(s))};
     s->tracer = wf_tracer_new(s->desc.scene, &view);
-    int count = s->desc.error > 0 ? WF_MOST_EACH : s->desc.count;
+    int count = s->desc.error > 0 ? WF_QUARTERS * WF_MOST_EACH : s->desc.count;
     s->sampler = wf_sampler_new(s->desc.sampler, count, s->desc.seed);
     return s->tracer && s->sampler;
 }
@@ -74,7 +74,7 @@ void wf_sampling_scratch_free(wf_sampling_scratch *c) {
     double *const doubles[] = {c->trace_x, c->trace_y, c->trace_f};
     for (size_t n = 0; n < sizeof floats / sizeof *floats; n++) free(floats[n]);
     for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++) free(doubles[n]);
-    wf_adaptive_free(&c->kept);
+    wf_points_free(&c->kept);
     free(c);
 }
 
@@ -150,10 +150,10 @@ double wf_window_fraction(const wf_sampling *s, double t, double late, double f)
     return s->tau > 0 ? (t - late - s->start) / s->tau : f;
 }
 
-/* The samples of a row's cells within the tile; set: which of several. */
-static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set) {
+/* Adds the samples of a row's cells within the tile behind n others; set: which of several. */
+static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set, size_t n) {
     wf_sampling_scratch *c = t->c;
-    size_t n = 0, count = (size_t)t->s->desc.count;
+    size_t count = (size_t)t->s->desc.count;
     for (int i = t->x0; i < t->x1; i++) {
         size_t first = n;
         wf_sampler_draw(t->s->sampler, (wf_cell){t->s->unit, i, row, set}, c->x + first,
@@ -172,16 +172,17 @@ static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set) {
     return n;
 }
 
-static bool trace_cells(const wf_tile *t, int row, wf_row_time time, int set) {
+/* Traces what is drawn, all as late, and hands it over. */
+static bool trace_drawn(const wf_tile *t, double late, size_t count) {
     wf_sampling_scratch *c = t->c;
-    size_t count = draw_cells(t, row, time, set);
     const wf_trace_samples traced = {
         .count = count,
         .x = c->trace_x,
         .y = c->trace_y,
         .f = c->trace_f,
-        .late_s = t->s->periods ? 0 : time.late * wf_ratio_value(wf_sampling_period(t->s)),
+        .late_s = t->s->periods ? 0 : late * wf_ratio_value(wf_sampling_period(t->s)),
         .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+    if (!count) return true;
     if (!wf_trace(t->s->tracer, c->trace, &traced)) return false;
     const wf_samples samples = {.count = count,
                                 .x = c->x,
@@ -189,7 +190,7 @@ static bool trace_cells(const wf_tile *t, int row, wf_row_time time, int set) {
                                 .t = c->t,
                                 .field = t->s->field,
                                 .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
-    if (count) t->emit(t->user, &samples);
+    t->receiver->samples(t->receiver->user, &samples);
     return true;
 }
 
@@ -213,7 +214,8 @@ static bool trace_instants(const wf_tile *t, int row, int first, int end) {
     int parity = wf_raster_parity(&t->s->raster, t->s->field);
     for (int l = first; l < end; l++) {
         double late = late_of(t->s, parity + l * step);
-        if (!trace_cells(t, row, (wf_row_time){late, late, late}, l - first)) return false;
+        size_t count = draw_cells(t, row, (wf_row_time){late, late, late}, l - first, 0);
+        if (!trace_drawn(t, late, count)) return false;
     }
     return true;
 }
@@ -230,13 +232,30 @@ bool wf_find_row_time(const wf_sampling *s, int row, wf_row_time *time) {
     return first < end;
 }
 
-static bool trace_row(const wf_tile *t, int row) {
-    wf_row_time time;
-    int first, end;
-    if (!wf_find_row_time(t->s, row, &time)) return true;
-    if (!t->s->instants) return trace_cells(t, row, time, 0);
-    lines_of(t->s, row, &first, &end);
-    return trace_instants(t, row, first, end);
+static bool trace_instant_rows(const wf_tile *t, int first, int end) {
+    for (int row = first; row < end; row++) {
+        int line, line_end;
+        lines_of(t->s, row, &line, &line_end);
+        if (!trace_instants(t, row, line, line_end)) return false;
+    }
+    return true;
+}
+
+/* Rows that are as late are traced together as far as there is room: packets are filled. */
+static bool trace_rows(const wf_tile *t, int first, int end) {
+    size_t drawn = 0, most = TILE_WIDTH * (size_t)t->s->desc.count;
+    double late = 0;
+    for (int row = first; row < end; row++) {
+        wf_row_time time;
+        if (!wf_find_row_time(t->s, row, &time)) continue;
+        if (drawn && (time.late != late || drawn + most > t->c->room)) {
+            if (!trace_drawn(t, late, drawn)) return false;
+            drawn = 0;
+        }
+        late = time.late;
+        drawn = draw_cells(t, row, time, 0, drawn);
+    }
+    return trace_drawn(t, late, drawn);
 }
 
 static bool trace_tile(const wf_tile *t, int first, int end) {
@@ -244,19 +263,17 @@ static bool trace_tile(const wf_tile *t, int first, int end) {
     wf_trace_tile found;
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &found)) return false;
     if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, &found);
-    for (int row = first; row < end; row++)
-        if (!trace_row(t, row)) return false;
-    return true;
+    return t->s->instants ? trace_instant_rows(t, first, end) : trace_rows(t, first, end);
 }
 
 bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int first, int end,
-                      wf_sampling_emit_fn *emit, void *user) {
+                      const wf_receiver *receiver) {
     int width = s->raster.width_px;
     for (int row = first; row < end; row += TILE_HEIGHT)
         for (int x = 0; x < width; x += TILE_WIDTH) {
             int last = row + TILE_HEIGHT < end ? row + TILE_HEIGHT : end;
-            wf_tile t = {s,    scratch, x, x + TILE_WIDTH < width ? x + TILE_WIDTH : width,
-                         emit, user};
+            int right = x + TILE_WIDTH < width ? x + TILE_WIDTH : width;
+            wf_tile t = {s, scratch, x, right, receiver};
             if (!trace_tile(&t, row, last)) return false;
         }
     return true;

@@ -39,12 +39,10 @@ bool wf_sampling_look(wf_sampling *sampling, int64_t unit);
 wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *sampling);
 void wf_sampling_scratch_free(wf_sampling_scratch *scratch);
 
-/* Frame rows first <= j < end of the unit: hands their samples to emit, block after block, cell
- * by cell, rows from the top and pixels from the left within blocks of rows. False: no memory.
- */
-typedef void wf_sampling_emit_fn(void *user, const wf_samples *samples);
+/* Frame rows first <= j < end of the unit: hands their samples over, block after block, cell by
+ * cell, rows from the top and pixels from the left within blocks of rows. False: no memory. */
 bool wf_sampling_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch, int first,
-                      int end, wf_sampling_emit_fn *emit, void *user);
+                      int end, const wf_receiver *receiver);
 
 wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *scratch);
 

@@ -9,14 +9,16 @@
 #define TILE_WIDTH  16
 #define TILE_HEIGHT 8
 
-/* Adaptive samples of a cell come in so many independent sets, each of at most so many. */
-#define WF_SETS      4
+#define TILE_CELLS (TILE_WIDTH * TILE_HEIGHT)
+
+/* Adaptive samples of a cell come in quarters, each of at most so many. */
+#define WF_QUARTERS  4
 #define WF_MOST_EACH 1024
 
 /* Samples that wait for their weights. */
 typedef struct wf_adaptive_samples {
     float *v[7]; /* x, y, t, r, g, b, weight */
-    int *cell;   /* and set: cell * WF_SETS + set */
+    int *cell;   /* and quarter: cell * WF_QUARTERS + quarter */
     size_t count, room;
 } wf_adaptive_samples;
 
@@ -51,8 +53,7 @@ typedef struct wf_tile {
     const wf_sampling *s;
     wf_sampling_scratch *c;
     int x0, x1;
-    wf_sampling_emit_fn *emit;
-    void *user;
+    const wf_receiver *receiver;
 } wf_tile;
 
 /* ---- sampling.c ---- */
@@ -69,7 +70,36 @@ double wf_window_fraction(const wf_sampling *s, double t, double late, double f)
 
 /* ---- adaptive.c ---- */
 
+/* A cell of a tile that is sampled as its error asks. */
+typedef struct wf_adaptive_cell {
+    int each; /* samples of each quarter */
+    double sum[WF_QUARTERS][3];
+    double error; /* of the mean, display-encoded; squared */
+} wf_adaptive_cell;
+
+typedef struct wf_adaptive {
+    const wf_tile *tile;
+    const wf_sampling *s;
+    wf_sampling_scratch *c;
+    int first, rows, width;
+    wf_adaptive_cell cell[TILE_CELLS]; /* [row][TILE_WIDTH] */
+    bool more[TILE_CELLS];             /* are to have more samples */
+    wf_row_time time[TILE_HEIGHT];
+    bool needed[TILE_HEIGHT]; /* rows */
+} wf_adaptive;
+
 bool wf_adaptive_tile(const wf_tile *tile, int first, int end, const wf_trace_tile *found);
-void wf_adaptive_free(wf_adaptive_samples *samples);
+
+/* How steep Rec. 709's transfer is at a value: what an error of light is on the display. */
+double wf_display_steepness(double v);
+
+/* ---- adaptive_points.c ---- */
+
+/* Gives every cell that wants more its first samples, or as many again as it has, and adds
+ * their light to its sums; emit hands over all of a tile, each cell with the weight 1. False:
+ * no memory. */
+bool wf_points_draw(wf_adaptive *a);
+void wf_points_emit(const wf_adaptive *a);
+void wf_points_free(wf_adaptive_samples *samples);
 
 #endif

@@ -45,8 +45,11 @@ static double run(const wf_gather_desc *d, block *b) {
     if (!g) return 0;
     for (int line = 0; line < r->lines; line += 8) {
         draw(b, r, line);
-        const wf_samples s = {b->count, b->x, b->y, b->t, 0, {b->rgb[0], b->rgb[1], b->rgb[2]},
-                              NULL};
+        const wf_samples s = {.count = b->count,
+                              .x = b->x,
+                              .y = b->y,
+                              .t = b->t,
+                              .rgb = {b->rgb[0], b->rgb[1], b->rgb[2]}};
         double start = now_s();
         wf_gather_add(g, &s);
         spent += now_s() - start;
