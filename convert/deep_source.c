@@ -26,10 +26,6 @@ static int instants_a_frame(const weft_job *job) {
     return job->raster.scan == WF_INTERLACED ? 2 : 1;
 }
 
-static int64_t instant_of(const weft_job *job, int64_t field) {
-    return job->raster.scan == WF_SEGMENTED ? field / 2 : field;
-}
-
 static int64_t within(int64_t v, int64_t count) {
     return v < 0 ? 0 : v >= count ? count - 1 : v;
 }
@@ -41,7 +37,7 @@ static void units(void *self, int64_t field, int64_t *first, int64_t *last) {
     const samples *s = self;
     wf_gather_desc d = wf_setup_gather(s->job);
     int per_frame = instants_a_frame(s->job);
-    int64_t instant = instant_of(s->job, field), own = instant / per_frame;
+    int64_t instant = wf_raster_instant(&s->job->raster, field), own = instant / per_frame;
     double tau = wf_ratio_value(d.width), from = (double)instant - anchors[d.position] * tau;
     double skew = wf_ratio_given(d.skew) ? wf_ratio_value(d.skew) : 0;
     int64_t low = (int64_t)floor(from / per_frame);
@@ -162,7 +158,7 @@ static void tell(const weft_job *job, const samples *s, const wf_gathering *g,
 static weft_status convert(weft_job *job, wf_setup *setup, samples *s, wf_report *report,
                            weft_error *err) {
     wf_gathering *g = NULL;
-    const wf_sample_source source = {s, units, begin, band};
+    const wf_sample_source source = {.self = s, .units = units, .begin = begin, .band = band};
     weft_status status = wf_gathering_new(job, setup, &source, &g, err);
     if (!status) status = wf_gathering_run(g, err);
     if (g) tell(job, s, g, report);

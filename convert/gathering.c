@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/strips.h"
+
 /* Rows that one thread gathers into sums of its own. Sums are added to the fields' in the order
  * of the bands, so that the bits do not depend on the threads. */
 #define BAND_ROWS 16
@@ -17,6 +19,14 @@ typedef struct worker {
     int64_t filled;
 } worker;
 
+/* A field that gathers samples. */
+typedef struct flight {
+    wf_gather *sums;
+    bool still;   /* it sees nothing move: others of its parity look the same */
+    bool follows; /* one of them, before it, gathers for both */
+    bool kept;    /* and has: the sums are borrowed */
+} flight;
+
 struct wf_gathering {
     weft_job *job;
     const wf_setup *setup;
@@ -27,10 +37,20 @@ struct wf_gathering {
     int threads;
     atomic_bool stop;
 
-    wf_gather **flight; /* fields flight_first on; room for flight_most */
+    flight *flight; /* fields flight_first on; room for flight_most */
     int64_t flight_first;
     int flight_count, flight_most;
     int64_t next_unit, end_field;
+
+    /* What is still is kept: whole fields, one of each parity, and tiles. */
+    bool keeps;
+    int *way; /* [units of a field, from its last]: those of one number it sees alike */
+    int ways;
+    wf_gather *kept[2];
+    wf_shelf shelf;
+    wf_taker *takers; /* of the unit in hand: room for most_takers */
+    int taker_count, most_takers;
+    int64_t tiles_reused, fields_reused;
 };
 
 int wf_gathering_threads(const weft_job *job) {
@@ -71,6 +91,40 @@ static size_t field_bytes(const wf_gathering *g) {
     return wf_gather_bytes(&g->desc, (raster->lines + 1) / wf_raster_line_step(raster));
 }
 
+static size_t kept_bytes(const wf_gathering *g) {
+    const wf_sample_tiling *t = &g->source.tiling;
+    const double x[2] = {t->width_px, 2 * t->width_px}, y[2] = {t->rows, 2 * t->rows};
+    wf_patch p = wf_gather_patch(&g->desc, 0, x, y);
+    size_t line = wf_gather_bytes(&g->desc, p.end - p.first + 1);
+    size_t tile = line / (size_t)g->job->raster.width_px * (size_t)(p.right - p.left) +
+                  sizeof(wf_sample_tile);
+    return 2 * field_bytes(g) + (size_t)t->count * 2 * (size_t)g->ways * tile;
+}
+
+/* Units that a field sees from beginning to end it sees alike; others each in a way of its own.
+ */
+static bool find_ways(wf_gathering *g, int *units) {
+    int64_t first, last;
+    g->source.units(g->source.self, 0, &first, &last);
+    *units = (int)(last - first) + 1;
+    g->way = calloc((size_t)*units, sizeof *g->way);
+    g->ways = 1;
+    for (int n = 0; g->way && n < *units; n++)
+        if (g->source.whole && !g->source.whole(g->source.self, 0, last - n))
+            g->way[n] = g->ways++;
+    return g->way;
+}
+
+/* What is still is kept where that takes less than a quarter of the memory. */
+static bool make_room_to_keep(wf_gathering *g) {
+    int tiles = g->source.tiling.count, units;
+    if (!find_ways(g, &units)) return false;
+    g->most_takers = 2 * (g->flight_most + 4 * units);
+    g->takers = calloc((size_t)g->most_takers, sizeof *g->takers);
+    g->keeps = g->job->skip && tiles > 0 && kept_bytes(g) < g->job->max_memory_bytes / 4;
+    return g->takers && (!g->keeps || wf_shelf_new(tiles, 2 * g->ways, &g->shelf));
+}
+
 static weft_status check_memory(const wf_gathering *g, weft_error *err) {
     size_t bytes =
         (size_t)g->flight_most * field_bytes(g) +
@@ -89,7 +143,8 @@ static weft_status fill(wf_gathering *g, weft_error *err) {
     if (status) return status;
     g->workers = calloc((size_t)g->threads, sizeof *g->workers);
     g->flight = calloc((size_t)g->flight_most, sizeof *g->flight);
-    if (!g->workers || !g->flight) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
+    if (!g->workers || !g->flight || !make_room_to_keep(g))
+        return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
     status = wf_frames_new(g->job, g->setup, g->flight_most, &g->frames, err);
     for (int t = 0; !status && t < g->threads; t++)
         status = wf_finisher_new(g->frames, &g->workers[t].finisher, err);
@@ -113,9 +168,19 @@ weft_status wf_gathering_new(weft_job *job, const wf_setup *setup,
     return WEFT_OK;
 }
 
+static void empty_flight(wf_gathering *g) {
+    for (int n = 0; n < g->flight_count; n++)
+        if (!g->flight[n].kept) wf_gather_free(g->flight[n].sums);
+    g->flight_count = 0;
+}
+
 void wf_gathering_free(wf_gathering *g) {
     if (!g) return;
-    for (int n = 0; n < g->flight_count; n++) wf_gather_free(g->flight[n]);
+    empty_flight(g);
+    for (int p = 0; p < 2; p++) wf_gather_free(g->kept[p]);
+    wf_shelf_free(&g->shelf);
+    free(g->takers);
+    free(g->way);
     for (int t = 0; g->workers && t < g->threads; t++)
         wf_finisher_free(&g->workers[t].finisher);
     wf_frames_free(g->frames);
@@ -137,80 +202,119 @@ static weft_status launch(wf_gathering *g, int64_t unit, weft_error *err) {
         if (field >= g->end_field) break;
         g->source.units(g->source.self, field, &first, &last);
         if (first > unit) break;
-        wf_gather *gather = wf_gather_new(&g->desc, field, 0, lines_of(g, field));
-        if (!gather) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a field");
-        g->flight[g->flight_count++] = gather;
+        wf_gather *sums = wf_gather_new(&g->desc, field, 0, lines_of(g, field));
+        if (!sums) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a field");
+        g->flight[g->flight_count++] = (flight){.sums = sums};
     }
     return WEFT_OK;
 }
 
-/* The sums of a band of one thread: one gather for each field in flight. */
-typedef struct strips {
-    wf_gather **gather;
-    int count;
-} strips;
-
-static void add_to_strips(void *user, const wf_samples *samples) {
-    const strips *s = user;
-    for (int n = 0; n < s->count; n++)
-        if (s->gather[n]) wf_gather_add(s->gather[n], samples);
+static bool needs(const wf_gathering *g, int64_t field, int64_t unit, int64_t *last) {
+    int64_t first;
+    g->source.units(g->source.self, field, &first, last);
+    return first <= unit && unit <= *last;
 }
 
-static bool needs(const wf_gathering *g, int64_t field, int64_t unit) {
-    int64_t first, last;
-    g->source.units(g->source.self, field, &first, &last);
-    return first <= unit && unit <= last;
+static int like(const wf_gathering *g, int slot) {
+    int n = 0;
+    while (n < g->taker_count && g->takers[n].slot != slot) n++;
+    return n;
 }
 
-static weft_status make_strips(const wf_gathering *g, int64_t unit, int first_row, int end_row,
-                               strips *s, weft_error *err) {
-    s->count = g->flight_count;
-    s->gather = calloc((size_t)s->count + 1, sizeof(wf_gather *));
-    bool good = s->gather;
-    for (int n = 0; good && n < s->count; n++) {
-        int first, end;
-        int64_t field = g->flight_first + n;
-        if (!needs(g, field, unit)) continue;
-        wf_gather_lines(&g->desc, field, first_row, end_row, &first, &end);
-        s->gather[n] = wf_gather_new(&g->desc, field, first, end);
-        good = s->gather[n];
-    }
-    return good ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a band of a field");
+static void add_taker(wf_gathering *g, int64_t unit, int64_t field, int64_t shift) {
+    int64_t last, place = field - g->flight_first;
+    if (!needs(g, field, unit, &last)) return;
+    int parity = wf_raster_parity(&g->job->raster, field + shift);
+    wf_taker t = {.field = field + shift, .shift = shift};
+    t.waits = shift == 0 && place >= 0 && place < g->flight_count && !g->flight[place].follows;
+    t.slot = 2 * g->way[last - unit] + parity;
+    t.like = like(g, t.slot);
+    bool more = t.waits || (g->keeps && t.like == g->taker_count);
+    if (more && g->taker_count < g->most_takers) g->takers[g->taker_count++] = t;
 }
 
-static void merge_strips(const wf_gathering *g, strips *s) {
-    for (int n = 0; s->gather && n < s->count; n++) {
-        if (s->gather[n]) wf_gather_merge(g->flight[n], s->gather[n]);
-        wf_gather_free(s->gather[n]);
-    }
-    free(s->gather);
+/* The fields in flight that need the unit; and, where what is still is kept, whoever else would
+ * see it so, now or one field later. */
+static void find_takers(wf_gathering *g, int64_t unit) {
+    int64_t last, first = g->flight_first, end = first + g->flight_count;
+    bool interlaced = g->job->raster.scan == WF_INTERLACED;
+    while (g->keeps && needs(g, first - 1, unit, &last)) first--;
+    while (g->keeps && needs(g, end, unit, &last)) end++;
+    g->taker_count = 0;
+    for (int64_t shift = 0; shift <= interlaced; shift++)
+        for (int64_t field = first; field < end; field++) add_taker(g, unit, field, shift);
 }
 
-static void gather_band(wf_gathering *g, int thread, int64_t unit, int first, strips *s) {
+static void merge_strips(wf_gathering *g, wf_strips *s) {
+    for (int n = 0; s->sums && n < g->taker_count; n++)
+        if (s->sums[n])
+            wf_gather_merge(g->flight[g->takers[n].field - g->flight_first].sums, s->sums[n]);
+    g->tiles_reused += s->reused;
+    wf_strips_free(s);
+}
+
+static void gather_band(wf_gathering *g, const wf_taking *taking, int thread, int first,
+                        wf_strips *s) {
     worker *w = &g->workers[thread];
     int lines = g->job->raster.lines,
         end = first + BAND_ROWS < lines ? first + BAND_ROWS : lines;
     double start = wf_now_s();
-    weft_status status = make_strips(g, unit, first, end, s, &w->error);
-    const wf_receiver receiver = {s, add_to_strips};
-    if (!status)
-        status = g->source.band(g->source.self, thread, first, end, &receiver, &w->error);
+    weft_status status = WEFT_OK;
+    bool room = wf_strips_new(taking, first, end, s);
+    const wf_receiver receiver = wf_strips_receiver(s);
+    if (room) status = g->source.band(g->source.self, thread, first, end, &receiver, &w->error);
+    if (!status && !(room && wf_strips_end(s)))
+        status = wf_fail(&w->error, WEFT_NO_MEMORY, "no memory for a band of a field");
     if (status) fail(g, w, status);
     w->source_s += wf_now_s() - start;
+}
+
+static void gather_bands(wf_gathering *g, int64_t unit) {
+    find_takers(g, unit);
+    const wf_taking taking = {&g->desc, g->takers, g->taker_count, g->keeps ? &g->shelf : NULL};
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1) ordered
+    for (int first = 0; first < g->job->raster.lines; first += BAND_ROWS) {
+        wf_strips s = {0};
+        if (!atomic_load(&g->stop) && !g->job->cancelled)
+            gather_band(g, &taking, omp_get_thread_num(), first, &s);
+#pragma omp ordered
+        merge_strips(g, &s);
+    }
+}
+
+/* ---- Still fields ---- */
+
+static void take_kept(wf_gathering *g, flight *f, wf_gather *kept) {
+    if (f->kept) return;
+    wf_gather_free(f->sums);
+    f->sums = kept;
+    f->kept = true;
+    g->fields_reused++;
+}
+
+/* Fields that see nothing move take the sums of one of their parity that was done before, or
+ * wait for it to be. Whether any has to gather. */
+static bool reuse_fields(wf_gathering *g) {
+    bool gathers[2] = {false, false};
+    for (int n = 0; n < g->flight_count; n++) {
+        int parity = wf_raster_parity(&g->job->raster, g->flight_first + n);
+        flight *f = &g->flight[n];
+        f->still = true;
+        f->follows = g->kept[parity] || gathers[parity];
+        if (g->kept[parity])
+            take_kept(g, f, g->kept[parity]);
+        else
+            gathers[parity] = true;
+    }
+    return gathers[0] || gathers[1];
 }
 
 static weft_status gather_unit(wf_gathering *g, int64_t unit, weft_error *err) {
     weft_status status = launch(g, unit, err);
     if (!status) status = g->source.begin(g->source.self, unit, err);
     if (status) return status;
-#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1) ordered
-    for (int first = 0; first < g->job->raster.lines; first += BAND_ROWS) {
-        strips s = {0};
-        if (!atomic_load(&g->stop) && !g->job->cancelled)
-            gather_band(g, omp_get_thread_num(), unit, first, &s);
-#pragma omp ordered
-        merge_strips(g, &s);
-    }
+    bool still = g->keeps && g->source.still(g->source.self);
+    if (!still || reuse_fields(g)) gather_bands(g, unit);
     return status_of(g, err);
 }
 
@@ -253,18 +357,27 @@ static void finish_line(wf_gathering *g, worker *w, const wf_gather *gather, int
         wf_frames_line(g->frames, &w->finisher, field, line);
 }
 
+/* Frees what a field has gathered, or keeps it for those that look the same. */
+static void let_go(wf_gathering *g) {
+    flight done = g->flight[0];
+    wf_gather **kept = &g->kept[wf_raster_parity(&g->job->raster, g->flight_first)];
+    if (done.still && !*kept)
+        *kept = done.sums;
+    else if (!done.kept)
+        wf_gather_free(done.sums);
+    g->flight_first++;
+    g->flight_count--;
+    memmove(g->flight, g->flight + 1, (size_t)g->flight_count * sizeof *g->flight);
+}
+
 static weft_status finish_field(wf_gathering *g, weft_error *err) {
     int64_t field = g->flight_first;
-    wf_gather *gather = g->flight[0];
     int lines = lines_of(g, field);
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (int l = 0; l < lines; l++)
         if (!atomic_load(&g->stop))
-            finish_line(g, &g->workers[omp_get_thread_num()], gather, field, l);
-    wf_gather_free(gather);
-    g->flight_first++;
-    g->flight_count--;
-    memmove(g->flight, g->flight + 1, (size_t)g->flight_count * sizeof *g->flight);
+            finish_line(g, &g->workers[omp_get_thread_num()], g->flight[0].sums, field, l);
+    let_go(g);
     return status_of(g, err);
 }
 
@@ -282,8 +395,7 @@ static weft_status make_field(wf_gathering *g, int64_t field, weft_error *err) {
 
 static weft_status make_frames(wf_gathering *g, int64_t first, int64_t end, weft_error *err) {
     int per_frame = wf_raster_fields_per_frame(&g->job->raster);
-    for (int n = 0; n < g->flight_count; n++) wf_gather_free(g->flight[n]);
-    g->flight_count = 0;
+    empty_flight(g);
     g->flight_first = first * per_frame;
     g->end_field = end * per_frame;
     g->next_unit = INT64_MIN;
@@ -310,7 +422,9 @@ weft_status wf_gathering_run(wf_gathering *g, weft_error *err) {
 
 wf_gathering_counts wf_gathering_counted(const wf_gathering *g) {
     wf_gathering_counts sum = {.frames = wf_frames_done(g->frames),
-                               .write_s = wf_frames_write_s(g->frames)};
+                               .write_s = wf_frames_write_s(g->frames),
+                               .tiles_reused = g->tiles_reused,
+                               .fields_reused = g->fields_reused};
     for (int t = 0; t < g->threads; t++) {
         sum.source_s += g->workers[t].source_s;
         sum.resample_s += g->workers[t].resample_s;

@@ -125,9 +125,19 @@ static void units(void *self, int64_t field, int64_t *first, int64_t *last) {
 
 static weft_status begin(void *self, int64_t unit, weft_error *err) {
     const renderer *r = self;
-    return wf_sampling_look(r->sampling, unit)
+    return wf_sampling_look(r->sampling, r->scratch[0], unit)
                ? WEFT_OK
                : wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
+}
+
+static bool still(void *self) {
+    const renderer *r = self;
+    return wf_sampling_still(r->sampling);
+}
+
+static bool whole(void *self, int64_t field, int64_t unit) {
+    const renderer *r = self;
+    return wf_sampling_whole(r->sampling, field, unit);
 }
 
 static weft_status band(void *self, int thread, int first, int end, const wf_receiver *receiver,
@@ -175,6 +185,8 @@ static void tell(const weft_job *job, const renderer *r, const wf_gathering *g,
     report->resample_s = counts.resample_s;
     report->color_s = counts.color_s;
     report->write_s = counts.write_s;
+    report->tiles_reused = counts.tiles_reused;
+    report->fields_reused = counts.fields_reused;
     wf_error_sum all = {0, 0};
     for (int t = 0; t < r->threads; t++) {
         wf_error_sum one = wf_sampling_error(r->scratch[t]);
@@ -191,7 +203,13 @@ static weft_status render(weft_job *job, wf_setup *s, const wf_scene *scene, wf_
     renderer r = {0};
     wf_gathering *g = NULL;
     weft_status status = make_renderer(job, scene, &r, err);
-    const wf_sample_source source = {&r, units, begin, band};
+    wf_sample_source source = {.self = &r,
+                               .units = units,
+                               .begin = begin,
+                               .still = still,
+                               .whole = whole,
+                               .band = band};
+    if (!status) source.tiling = wf_sampling_tiling(r.sampling);
     if (!status) status = wf_gathering_new(job, s, &source, &g, err);
     if (!status) status = wf_gathering_run(g, err);
     if (g) tell(job, &r, g, report);

@@ -61,6 +61,8 @@ static void add_tracer(wf_json *json, const wf_report *report) {
         wf_json_int(json, "rays", report->rays);
         wf_json_int(json, "tiles", report->tiles);
         wf_json_int(json, "tiles_skipped", report->tiles_skipped);
+        wf_json_int(json, "tiles_reused", report->tiles_reused);
+        wf_json_int(json, "fields_reused", report->fields_reused);
         wf_json_real(json, "error_estimate", report->error_estimate);
     }
     wf_json_close(json);

@@ -26,7 +26,7 @@ typedef struct wf_report {
     int64_t chunks_decoded, chunks_reused, nan_fixed;
 
     bool traced; /* false: "tracer" is {} */
-    int64_t samples, rays, tiles, tiles_skipped;
+    int64_t samples, rays, tiles, tiles_skipped, tiles_reused, fields_reused;
     double error_estimate; /* RMS, display-encoded; 0: none was made */
 
     wf_report_legal legal;

@@ -256,7 +256,7 @@ static file_units units_of(const tracing *t, int64_t frame, int64_t last_frame) 
 static weft_status look(tracing *t, const file_units *u, double *late, weft_error *err) {
     for (int64_t n = u->first; n <= u->last; n++) {
         late[n - u->first] = (double)(n - u->zero);
-        if (!wf_sampling_look(t->sampling[n - u->first], n))
+        if (!wf_sampling_look(t->sampling[n - u->first], t->scratch[0], n))
             return wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
     }
     return WEFT_OK;

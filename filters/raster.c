@@ -248,6 +248,11 @@ int wf_raster_fields_per_frame(const wf_raster *raster) {
     return raster->scan == WF_PROGRESSIVE ? 1 : 2;
 }
 
+int64_t wf_raster_instant(const wf_raster *raster, int64_t field) {
+    if (raster->scan != WF_SEGMENTED) return field;
+    return (field - (field % 2 != 0 && field < 0)) / 2;
+}
+
 int wf_raster_parity(const wf_raster *raster, int64_t field) {
     if (raster->scan == WF_PROGRESSIVE) return 0;
     return (field % 2 == 0) == raster->top_first ? 0 : 1;

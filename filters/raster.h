@@ -43,6 +43,9 @@ const char *wf_raster_order(const wf_raster *raster);
 bool wf_raster_map_top_first(int line1, int line2, int total_lines);
 bool wf_raster_map_valid(int line1, int line2, int total_lines);
 
+/* The instant of a field, counted in instants: both fields of a segmented frame have one. */
+int64_t wf_raster_instant(const wf_raster *raster, int64_t field);
+
 /* Field n of the raster: its parity (0: it owns the top lines j = 0, 2, ..; 1: j = 1, 3, ..;
  * progressive rasters: always 0), the distance between its lines (2, or 1) and their number. */
 int wf_raster_parity(const wf_raster *raster, int64_t field);

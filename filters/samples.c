@@ -13,8 +13,7 @@
 
 /* Instants in field periods; segmented frames show both fields at one. */
 static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) {
-    if (d->raster->scan != WF_SEGMENTED) return (double)(to - from);
-    return (double)(to / 2 - from / 2);
+    return (double)(wf_raster_instant(d->raster, to) - wf_raster_instant(d->raster, from));
 }
 
 static double middle_of(const wf_gather_desc *d) {
@@ -35,8 +34,8 @@ void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double 
                       int64_t *first, int64_t *last) {
     double middle = middle_of(d), half = half_window(d);
     double low = ceil(t0 - middle - half - skew_of(d)), high = floor(t1 - middle + half);
-    int64_t base = field, per = 1;
-    if (d->raster->scan == WF_SEGMENTED) base = field / 2, per = 2;
+    int64_t base = wf_raster_instant(d->raster, field);
+    int64_t per = d->raster->scan == WF_SEGMENTED ? 2 : 1;
     *first = (base + (int64_t)low) * per;
     *last = (base + (int64_t)high) * per + per - 1;
     if (*first < 0) *first = 0;

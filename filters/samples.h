@@ -26,18 +26,28 @@ typedef struct wf_samples {
     const float *weight; /* NULL: 1 each */
     const float *extent; /* NULL, or pixels along x, 1 at most, about x, that each stands for:
                             an aperture takes as much of a sample as it sees of that */
-
-    /* Of what does not move: seen alike at all times from..to, as field periods after the
-     * instant; t is not read. Each counts for the part of that time in which an aperture sees
-     * it. */
-    bool still;
-    double from, to;
 } wf_samples;
+
+/* How a raster is cut into rectangles of samples. */
+typedef struct wf_sample_tiling {
+    int count, width_px, rows;
+} wf_sample_tiling;
+
+/* One of them. */
+typedef struct wf_sample_tile {
+    int index;                   /* which, counted over the raster */
+    int left, right, first, end; /* pixels, frame rows */
+    bool still; /* at all times at which it is, its samples are the same, as counted from the
+                   instant of their field */
+    bool both;  /* and serve fields of both parities */
+} wf_sample_tile;
 
 /* Whoever takes samples. */
 typedef struct wf_receiver {
     void *user;
     void (*samples)(void *user, const wf_samples *samples);
+    /* NULL, or: a tile begins, whose samples follow. False: they are not wanted. */
+    bool (*tile)(void *user, const wf_sample_tile *tile);
 } wf_receiver;
 
 /* Lines first <= l < end of a field, pixels left <= i < right of each. */

@@ -23,9 +23,8 @@
 /* Samples of one cell; those from count up to a multiple of LANES weigh nothing. */
 typedef struct run {
     int count, padded;
-    bool still, wide;
-    double lasts;                    /* how long still ones are seen */
-    _Alignas(64) double extent[RUN]; /* where wide: half of each */
+    bool wide;
+    _Alignas(64) double extent[RUN];                           /* where wide: half of each */
     _Alignas(64) double x[RUN], y[RUN], t[RUN], light[4][RUN]; /* weight * (r, g, b, 1) */
     _Alignas(64) double v[RUN], q[RUN], height[RUN], half_u[RUN];
 } run;
@@ -46,15 +45,13 @@ static int same_cell(const wf_samples *s, size_t first) {
 
 static void load(const wf_samples *s, size_t first, double apart, run *r) {
     r->padded = (r->count + LANES - 1) / LANES * LANES;
-    r->still = s->still;
     r->wide = s->extent;
-    r->lasts = s->to - s->from;
     for (int i = 0; i < r->padded; i++) {
         size_t at = first + (size_t)(i < r->count ? i : 0);
         double w = i >= r->count ? 0 : s->weight ? (double)s->weight[at] : 1;
         r->x[i] = (double)s->x[at];
         r->y[i] = (double)s->y[at];
-        r->t[i] = (s->still ? s->from : (double)s->t[at]) - apart;
+        r->t[i] = (double)s->t[at] - apart;
         r->extent[i] = s->extent ? (double)s->extent[at] / 2 : 0;
         r->light[0][i] = w * (double)s->rgb[0][at];
         r->light[1][i] = w * (double)s->rgb[1][at];
@@ -109,18 +106,6 @@ static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
     sum->weight += total(weight);
 }
 
-/* The part of its time for which the aperture sees what stands still. */
-static double part_seen(const wf_gather *g, const run *r, int i) {
-    double half = g->half, q = r->q[i];
-    if (!(r->lasts > 0)) return 1;
-    if (g->desc.aperture.kind->couples_vq) half *= 1 - fabs(r->v[i]);
-    return fmax(fmin(q + r->lasts, half) - fmax(q, -half), 0) / r->lasts;
-}
-
-static void find_parts_seen(const wf_gather *g, run *r) {
-    for (int i = 0; i < r->padded; i++) r->height[i] *= part_seen(g, r, i);
-}
-
 /* An instant's aperture has only u and v, and the diamond's is then the tent that it tends to.
  */
 static void find_heights(const wf_gather *g, run *r, int j) {
@@ -132,13 +117,8 @@ static void find_heights(const wf_gather *g, run *r, int j) {
         r->q[i] = r->t[i] - late;
     }
     static const double none[RUN];
-    bool timeless = instant || r->still;
     wf_profiles_best()[a->kind->profile](a, instant ? 1 : g->tau, r->padded, r->v,
-                                         timeless ? none : r->q, r->height, r->half_u);
-    if (r->still && !instant) {
-        find_parts_seen(g, r);
-        return;
-    }
+                                         instant ? none : r->q, r->height, r->half_u);
     for (int i = 0; i < r->padded; i++) {
         double height = tent ? r->height[i] * (1 - fabs(r->v[i])) : r->height[i];
         r->height[i] = fabs(r->q[i]) <= half ? height : 0;

@@ -77,7 +77,7 @@ static void gather_unit(const wf_sampling *sampling, const wf_gather_desc *desc,
             int end = first + BAND < lines ? first + BAND : lines, line, line_end;
             wf_gather_lines(desc, field, first, end, &line, &line_end);
             wf_gather *band = wf_gather_new(desc, field, line, line_end);
-            const wf_receiver receiver = {band, gather_samples};
+            const wf_receiver receiver = {.user = band, .samples = gather_samples};
             if (!scratch || !band ||
                 !wf_sampling_rows(sampling, scratch, first, end, &receiver))
                 abort();
@@ -95,11 +95,13 @@ static wf_gather *gather_field(const wf_sampling_desc *desc, int64_t field) {
     int lines = wf_raster_field_lines(r, wf_raster_parity(r, field));
     wf_gather *all = wf_gather_new(&desc->gather, field, 0, lines);
     int64_t unit, last;
-    assert_true(sampling && all);
+    wf_sampling_scratch *scratch = sampling ? wf_sampling_scratch_new(sampling) : NULL;
+    assert_true(scratch && all);
     for (wf_sampling_units(sampling, field, &unit, &last); unit <= last; unit++) {
-        assert_true(wf_sampling_look(sampling, unit));
+        assert_true(wf_sampling_look(sampling, scratch, unit));
         gather_unit(sampling, &desc->gather, field, all);
     }
+    wf_sampling_scratch_free(scratch);
     wf_sampling_free(sampling);
     return all;
 }

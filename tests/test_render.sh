@@ -58,6 +58,45 @@ check "chunks do not show" cmp one.y4m chunks.y4m
 check "another seed" exits 0 weft render "${render[@]}" --frames 0-3 --seed 1 -o seed.y4m
 check "a seed shows" bash -c '! cmp -s one.y4m seed.y4m'
 
+# ---- What a scene does not need ----
+
+# counted REPORT NAME: a count of the report.
+counted() { grep -o "\"$2\": [0-9]*" "$1" | awk '{ print $2 }'; }
+
+# A ball that nobody sees, whose shadow crosses what stands still.
+cat >shadow.lua <<'EOF'
+camera{eye={0, 3, 6}, look_at={0, 0, 0}, fov=45}
+duration(0.4)
+light{point={0, 6, 0}}
+add(box{min={-4, -0.2, -4}, max={4, 0, 4}}:material{texture=checker{{0.9, 0.9, 0.9}, {0.2, 0.4, 0.2}, size=0.5}})
+add(sphere{radius=0.4}:translate{-1, 5, 0}:velocity{10, 0, 0})
+EOF
+for how in '--aperture line' '--temporal-width 3/2 --shutter-position center' \
+    '--temporal-width 3 --aperture diamond' '--raster 48x36@24psf --temporal-width 5/2' \
+    '--raster 48x36@25p' '--scan-skew 1/2' '--error 0.05'; do
+    for scene in shadow.lua "$scenes/one_mover.lua" "$scenes/still.lua" "$scenes/gallery.lua"; do
+        # shellcheck disable=SC2086
+        set -- "$scene" "${small[@]}" --samples 4 --frames 0-5 $how --overwrite
+        name="$(basename "$scene") $how"
+        check "$name" exits 0 weft render "$@" -o skip.y4m --report skip.json
+        check "$name --skip off" exits 0 weft render "$@" --skip off -o all.y4m --report all.json
+        check "$name: skipping does not show" cmp skip.y4m all.y4m
+        check "$name: something is skipped" \
+            test "$(counted skip.json samples)" -lt "$(counted all.json samples)"
+        check "$name: or nothing is" \
+            test "$(counted all.json tiles_reused)$(counted all.json fields_reused)" = 00
+    done
+done
+check "a still scene" exits 0 weft render "$scenes/still.lua" "${small[@]}" --samples 4 \
+    --frames 0-5 --overwrite -o skip.y4m --report skip.json
+check "is traced once" test "$(counted skip.json samples)" = $((4 * width * lines))
+check "and gathered for each parity" test "$(counted skip.json fields_reused)" = 10
+set -- "$scenes/one_mover.lua" "${small[@]}" --samples 4 --frames 0-5 --overwrite
+check "frames from 3 on" exits 0 weft render "$@" --chunk 2/2 -o second.y4m
+check "frames from 0 on" exits 0 weft render "$@" --threads 3 -o whole.y4m
+bytes=$((3 * 2 * width * lines * 2))
+check "are alike" cmp <(tail -c $bytes second.y4m) <(tail -c $bytes whole.y4m)
+
 # ---- Stored and taken up again ----
 
 # near A B: two EXR pictures are within the resampler's bound.

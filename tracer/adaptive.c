@@ -90,7 +90,7 @@ static void sum_errors(const wf_adaptive *a) {
         }
 }
 
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end, const wf_trace_tile *found) {
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty) {
     wf_adaptive a = {.tile = tile, .s = tile->s, .c = tile->c, .first = first};
     a.rows = end - first;
     a.width = tile->x1 - tile->x0;
@@ -101,7 +101,7 @@ bool wf_adaptive_tile(const wf_tile *tile, int first, int end, const wf_trace_ti
     }
     do {
         if (!draw_round(&a)) return false;
-    } while (!found->empty && want_more(&a));
+    } while (!empty && want_more(&a));
     wf_points_emit(&a);
     sum_errors(&a);
     return true;

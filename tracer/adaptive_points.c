@@ -40,7 +40,7 @@ static bool draw(wf_adaptive *a, int at, int quarter, int from, int count) {
     wf_row_time time = a->time[at / TILE_WIDTH];
     if (!make_room(k, (size_t)count)) return false;
     size_t first = k->count;
-    wf_sampler_draw_more(a->s->sampler, (wf_cell){a->s->unit, i, j, 0}, from, count,
+    wf_sampler_draw_more(a->s->sampler, (wf_cell){a->tile->time, i, j, 0}, from, count,
                          k->v[0] + first, k->v[1] + first, k->v[6] + first);
     for (size_t n = first; n < first + (size_t)count; n++) {
         double t = time.from + (double)k->v[6][n] * (time.to - time.from);

@@ -21,8 +21,11 @@ struct wf_tracer {
     wf_texture_fn *const *textures;
     wf_part *parts;
     bool *sibling; /* [object]: it has several parts */
+    bool *lit;     /* [part]: light falls on it, so that shadows do */
+    bool *clear; /* [part]: it mirrors or lets light through: what is seen in it may be anywhere
+                  */
     int part_count, most_stack;
-    bool own_widths, lights_move;
+    bool own_widths, lights_move, all_still;
 
     /* The window of time it looks at. */
     bool skip, looked;

@@ -88,18 +88,13 @@ wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *c) {
 
 /* ---- Units of time ---- */
 
-/* Instants are those of fields; both fields of a segmented frame have one. */
-static int64_t instant_of(const wf_sampling *s, int64_t field) {
-    return s->raster.scan == WF_SEGMENTED ? field / 2 : field;
-}
-
 static int64_t field_of(const wf_sampling *s, int64_t instant) {
     return s->raster.scan == WF_SEGMENTED ? 2 * instant : instant;
 }
 
 /* Periods begin at the instants of fields, wherever windows lie about them. */
 void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int64_t *last) {
-    int64_t instant = instant_of(s, field);
+    int64_t instant = wf_raster_instant(&s->raster, field);
     double from = -s->anchor * s->tau;
     *first = *last = instant;
     if (!s->periods) return;
@@ -107,7 +102,7 @@ void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int6
     *last += (int64_t)ceil(from + s->tau + s->skew) - 1;
 }
 
-bool wf_sampling_look(wf_sampling *s, int64_t unit) {
+bool wf_sampling_look(wf_sampling *s, wf_sampling_scratch *c, int64_t unit) {
     wf_rational period = wf_sampling_period(s), base = wf_ratio(unit * period.num, period.den);
     const wf_window_of_time window = {.base_s = base,
                                       .width_fields = s->periods ? 1 : s->tau,
@@ -117,7 +112,21 @@ bool wf_sampling_look(wf_sampling *s, int64_t unit) {
     s->unit = unit;
     s->field = field_of(s, unit);
     s->start = s->periods ? 0 : -s->anchor * s->tau;
-    return wf_tracer_look(s->tracer, &window, s->desc.skip);
+    if (!wf_tracer_look(s->tracer, &window, s->desc.skip)) return false;
+    const double x[2] = {0, s->raster.width_px}, y[2] = {0, s->raster.lines};
+    s->still = wf_trace_still(s->tracer, c->trace, x, y);
+    return true;
+}
+
+/* What a field sees of later periods is not known yet. */
+bool wf_sampling_still(const wf_sampling *s) {
+    return s->periods ? wf_tracer_still(s->tracer) : s->still;
+}
+
+bool wf_sampling_whole(const wf_sampling *s, int64_t field, int64_t unit) {
+    double from = (double)(unit - wf_raster_instant(&s->raster, field)) + s->anchor * s->tau;
+    return s->periods && !s->desc.gather.aperture.kind->couples_vq && from >= s->skew &&
+           from + 1 <= s->tau;
 }
 
 /* ---- Rows ---- */
@@ -156,7 +165,7 @@ static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set, s
     size_t count = (size_t)t->s->desc.count;
     for (int i = t->x0; i < t->x1; i++) {
         size_t first = n;
-        wf_sampler_draw(t->s->sampler, (wf_cell){t->s->unit, i, row, set}, c->x + first,
+        wf_sampler_draw(t->s->sampler, (wf_cell){t->time, i, row, set}, c->x + first,
                         c->y + first, c->f + first);
         for (size_t k = first; k < first + count; k++) {
             double at = wf_on_time_grid(time.from + (double)c->f[k] * (time.to - time.from));
@@ -258,12 +267,83 @@ static bool trace_rows(const wf_tile *t, int first, int end) {
     return trace_drawn(t, late, drawn);
 }
 
-static bool trace_tile(const wf_tile *t, int first, int end) {
+/* ---- Tiles ---- */
+
+/* The cells of tiles that are still have one time, whichever it is. */
+#define STILL INT64_MIN
+
+/* Whether the apertures of both parities reach the samples of one. */
+static bool serves_both(const wf_sampling *s) {
+    const wf_aperture_kind *kind = s->desc.gather.aperture.kind;
+    if (s->periods) return true;
+    return kind->reach_v > 0.5 && !(s->skew > 0) && !(kind->couples_vq && s->tau > 0);
+}
+
+/* Where nothing but background is seen, in this tile and in those about it, that is known
+ * without samples: one for each cell says it to the pixels. */
+static bool is_background(const wf_tile *t, int first, int end) {
+    const double x[2] = {t->x0 - TILE_WIDTH, t->x1 + TILE_WIDTH};
+    const double y[2] = {first - TILE_HEIGHT, end + TILE_HEIGHT};
+    return t->s->desc.skip && t->receiver->tile && !(t->s->skew > 0) &&
+           wf_trace_nothing(t->s->tracer, t->c->trace, x, y);
+}
+
+static void emit_background(const wf_tile *t, int first, int end) {
+    wf_sampling_scratch *c = t->c;
+    for (int row = first; row < end; row++) {
+        wf_row_time time;
+        size_t count = (size_t)(t->x1 - t->x0);
+        if (!wf_find_row_time(t->s, row, &time)) continue;
+        for (size_t n = 0; n < count; n++) {
+            c->x[n] = (float)t->x0 + (float)n + 0.5F;
+            c->y[n] = (float)row + 0.5F;
+            c->t[n] = (float)wf_on_time_grid((time.from + time.to) / 2);
+            for (int k = 0; k < 3; k++) c->rgb[k][n] = t->s->desc.scene->background[k];
+        }
+        const wf_samples samples = {.count = count,
+                                    .x = c->x,
+                                    .y = c->y,
+                                    .t = c->t,
+                                    .field = t->s->field,
+                                    .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+        t->receiver->samples(t->receiver->user, &samples);
+    }
+}
+
+static int tiles_across(const wf_sampling *s) {
+    return (s->raster.width_px + TILE_WIDTH - 1) / TILE_WIDTH;
+}
+
+static bool is_wanted(const wf_tile *t, int first, int end, bool still) {
+    const wf_receiver *r = t->receiver;
+    int above = first / TILE_HEIGHT * tiles_across(t->s);
+    const wf_sample_tile tile = {.index = above + t->x0 / TILE_WIDTH,
+                                 .left = t->x0,
+                                 .right = t->x1,
+                                 .first = first,
+                                 .end = end,
+                                 .still = still,
+                                 .both = serves_both(t->s)};
+    return !r->tile || r->tile(r->user, &tile);
+}
+
+static bool trace_tile(wf_tile *t, int first, int end) {
     const double x[2] = {t->x0, t->x1}, y[2] = {first, end};
-    wf_trace_tile found;
-    if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &found)) return false;
-    if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, &found);
+    bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y);
+    t->time = still ? STILL : t->s->unit;
+    if (!is_wanted(t, first, end, still)) return true;
+    if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
+    if (empty && is_background(t, first, end)) {
+        emit_background(t, first, end);
+        return true;
+    }
+    if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, empty);
     return t->s->instants ? trace_instant_rows(t, first, end) : trace_rows(t, first, end);
+}
+
+wf_sample_tiling wf_sampling_tiling(const wf_sampling *s) {
+    int down = (s->raster.lines + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    return (wf_sample_tiling){tiles_across(s) * down, TILE_WIDTH, TILE_HEIGHT};
 }
 
 bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int first, int end,
@@ -273,7 +353,7 @@ bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int fi
         for (int x = 0; x < width; x += TILE_WIDTH) {
             int last = row + TILE_HEIGHT < end ? row + TILE_HEIGHT : end;
             int right = x + TILE_WIDTH < width ? x + TILE_WIDTH : width;
-            wf_tile t = {s, scratch, x, right, receiver};
+            wf_tile t = {s, scratch, x, right, receiver, s->unit};
             if (!trace_tile(&t, row, last)) return false;
         }
     return true;
@@ -314,8 +394,8 @@ bool wf_sampling_subframe_rows(const wf_sampling *s, wf_sampling_scratch *c, int
         int count = across - x < most ? across - x : most;
         const double xs[2] = {x * cell[0], (x + count) * cell[0]};
         const double ys[2] = {first * cell[1], end * cell[1]};
-        wf_trace_tile found;
-        if (!wf_trace_prepare(s->tracer, c->trace, xs, ys, &found)) return false;
+        bool empty;
+        if (!wf_trace_prepare(s->tracer, c->trace, xs, ys, &empty)) return false;
         for (int row = first; row < end; row++)
             if (!trace_stretch(s, c, cell, x, count, row,
                                rgb + (size_t)(row - first) * 3 * (size_t)across))

@@ -33,14 +33,25 @@ void wf_sampling_free(wf_sampling *sampling);
 void wf_sampling_units(const wf_sampling *sampling, int64_t field, int64_t *first,
                        int64_t *last);
 
-/* Turns to a unit. False: no memory. */
-bool wf_sampling_look(wf_sampling *sampling, int64_t unit);
-
 wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *sampling);
 void wf_sampling_scratch_free(wf_sampling_scratch *scratch);
 
-/* Frame rows first <= j < end of the unit: hands their samples over, block after block, cell by
- * cell, rows from the top and pixels from the left within blocks of rows. False: no memory. */
+/* Turns to a unit; the scratch is only borrowed. False: no memory. */
+bool wf_sampling_look(wf_sampling *sampling, wf_sampling_scratch *scratch, int64_t unit);
+
+/* Whether fields that need this unit see nothing move. */
+bool wf_sampling_still(const wf_sampling *sampling);
+
+/* Whether all apertures of a field see a unit from its beginning to its end, and one moment of
+ * it as well as another. */
+bool wf_sampling_whole(const wf_sampling *sampling, int64_t field, int64_t unit);
+
+/* How the raster is cut for receivers that ask. */
+wf_sample_tiling wf_sampling_tiling(const wf_sampling *sampling);
+
+/* Frame rows first <= j < end of the unit, first a multiple of the tiles' rows: hands their
+ * samples over, block after block, cell by cell, rows from the top and pixels from the left
+ * within blocks of rows. False: no memory. */
 bool wf_sampling_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch, int first,
                       int end, const wf_receiver *receiver);
 

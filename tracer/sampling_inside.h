@@ -31,6 +31,7 @@ struct wf_sampling {
     bool periods;  /* units are field periods */
     bool instants; /* each line has an instant of its own */
     int64_t unit, field;
+    bool still;   /* nothing seen moves in the unit */
     double start; /* of the unit's window, field periods from the field's instant */
 };
 
@@ -54,6 +55,7 @@ typedef struct wf_tile {
     wf_sampling_scratch *c;
     int x0, x1;
     const wf_receiver *receiver;
+    int64_t time; /* of its cells: the unit, or that of all tiles that are still */
 } wf_tile;
 
 /* ---- sampling.c ---- */
@@ -88,7 +90,7 @@ typedef struct wf_adaptive {
     bool needed[TILE_HEIGHT]; /* rows */
 } wf_adaptive;
 
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end, const wf_trace_tile *found);
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty);
 
 /* How steep Rec. 709's transfer is at a value: what an error of light is on the display. */
 double wf_display_steepness(double v);

@@ -79,6 +79,26 @@ static bool make_parts(wf_tracer *t) {
     return room;
 }
 
+static void find_look(wf_tracer *t, int index) {
+    const wf_part *part = &t->parts[index];
+    for (int k = 0; k < part->step_count; k++) {
+        const wf_step *step = &t->scene->steps[part->first_step + k];
+        if (step->kind != WF_STEP_SOLID) continue;
+        const wf_material *m = &t->scene->materials[t->scene->solids[step->count].material];
+        t->lit[index] |= !m->unlit;
+        t->clear[index] |= m->reflect > 0 || m->refract > 0;
+    }
+}
+
+static void find_looks(wf_tracer *t) {
+    bool moves = t->lights_move || wf_op_moves(t->scene, t->scene->camera.op);
+    for (int n = 0; n < t->part_count; n++) {
+        find_look(t, n);
+        moves |= t->parts[n].moves;
+    }
+    t->all_still = !moves;
+}
+
 /* ---- Life ---- */
 
 static bool any_op(const wf_scene *s, bool own_width) {
@@ -94,11 +114,13 @@ static bool make_room(wf_tracer *t) {
     t->solid_bounds = malloc(((size_t)s->solid_count + 1) * sizeof *t->solid_bounds);
     t->part_bounds = malloc(parts * sizeof *t->part_bounds);
     t->stack = malloc(stack * sizeof *t->stack);
+    t->lit = calloc(parts, sizeof *t->lit);
+    t->clear = calloc(parts, sizeof *t->clear);
     t->still = malloc(parts * sizeof *t->still);
     t->moving = malloc(parts * sizeof *t->moving);
     t->endless = malloc(parts * sizeof *t->endless);
-    return t->ops && t->solid_bounds && t->part_bounds && t->stack && t->still && t->moving &&
-           t->endless;
+    return t->ops && t->solid_bounds && t->part_bounds && t->stack && t->lit && t->clear &&
+           t->still && t->moving && t->endless;
 }
 
 wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
@@ -115,7 +137,10 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
     t->own_widths = any_op(scene, true);
     for (int n = 0; n < scene->light_count; n++)
         t->lights_move |= wf_op_moves(scene, scene->lights[n].op);
-    if (make_parts(t) && make_room(t)) return t;
+    if (make_parts(t) && make_room(t)) {
+        find_looks(t);
+        return t;
+    }
     wf_tracer_free(t);
     return NULL;
 }
@@ -126,6 +151,8 @@ void wf_tracer_free(wf_tracer *t) {
     wf_tree_free(&t->moving_tree);
     free(t->parts);
     free(t->sibling);
+    free(t->lit);
+    free(t->clear);
     free(t->ops);
     free(t->solid_bounds);
     free(t->part_bounds);
@@ -255,21 +282,20 @@ wf_trace_counts wf_trace_counted(const wf_trace_scratch *s) {
 
 /* ---- Tracing ---- */
 
-static bool culls_still(const wf_tracer *t, const wf_culls *culls) {
-    for (size_t n = 0; n < culls->part_count; n++)
-        if (t->parts[culls->part[n].part].moves) return false;
+bool wf_trace_prepare(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
+                      const double y[2], bool *empty) {
+    wf_shaft shaft = wf_camera_shaft(t, x, y);
+    if (!wf_find(t, s, NULL, &shaft, &s->tile)) return false;
+    *empty = s->tile.part_count == 0;
+    s->counts.tiles++;
+    s->counts.tiles_skipped += *empty;
     return true;
 }
 
-bool wf_trace_prepare(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
-                      const double y[2], wf_trace_tile *tile) {
+bool wf_trace_nothing(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
+                      const double y[2]) {
     wf_shaft shaft = wf_camera_shaft(t, x, y);
-    if (!wf_find(t, s, NULL, &shaft, &s->tile)) return false;
-    tile->empty = s->tile.part_count == 0;
-    tile->still = culls_still(t, &s->tile) && !wf_op_moves(t->scene, t->scene->camera.op);
-    s->counts.tiles++;
-    s->counts.tiles_skipped += tile->empty;
-    return true;
+    return wf_find(t, s, NULL, &shaft, &s->tile) && s->tile.part_count == 0;
 }
 
 static void fill_packet(const wf_tracer *t, const wf_trace_samples *samples, size_t first,

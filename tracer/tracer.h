@@ -38,18 +38,15 @@ typedef struct wf_trace_samples {
     float *rgb[3];       /* scene-linear light: written; never NaN or infinite */
 } wf_trace_samples;
 
-/* What a tile was found to be. */
-typedef struct wf_trace_tile {
-    bool empty; /* nothing but background */
-    bool still; /* nothing that can be seen in it, or that light falls past, moves */
-} wf_trace_tile;
-
 /* The scene must outlive the tracer. NULL: no memory. */
 wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view);
 void wf_tracer_free(wf_tracer *tracer); /* NULL is fine */
 
 /* Whether a solid has a temporal width of its own. */
 bool wf_tracer_own_widths(const wf_tracer *tracer);
+
+/* Whether nothing moves at all. */
+bool wf_tracer_still(const wf_tracer *tracer);
 
 /* Turns to a window of time. skip false: from now on nothing is left out. False: no memory. */
 bool wf_tracer_look(wf_tracer *tracer, const wf_window_of_time *window, bool skip);
@@ -59,10 +56,20 @@ wf_trace_scratch *wf_trace_scratch_new(const wf_tracer *tracer);
 void wf_trace_scratch_free(wf_trace_scratch *scratch); /* NULL is fine */
 wf_trace_counts wf_trace_counted(const wf_trace_scratch *scratch);
 
-/* Prepares for samples inside a rectangle of the raster: finds what can be seen there. False:
- * no memory. */
+/* Whether what a rectangle of the raster shows is proved to look alike in all windows of time
+ * in which it is still: nothing that can be seen in it, or come between that and a light,
+ * moves. */
+bool wf_trace_still(const wf_tracer *tracer, wf_trace_scratch *scratch, const double x[2],
+                    const double y[2]);
+
+/* Prepares for samples inside a rectangle: finds what can be seen there; *empty: nothing but
+ * background. False: no memory. */
 bool wf_trace_prepare(const wf_tracer *tracer, wf_trace_scratch *scratch, const double x[2],
-                      const double y[2], wf_trace_tile *tile);
+                      const double y[2], bool *empty);
+
+/* Whether nothing but background is seen anywhere in a rectangle. Forgets what was prepared. */
+bool wf_trace_nothing(const wf_tracer *tracer, wf_trace_scratch *scratch, const double x[2],
+                      const double y[2]);
 
 /* Light at samples inside the rectangle prepared for. False: no memory. */
 bool wf_trace(const wf_tracer *tracer, wf_trace_scratch *scratch,

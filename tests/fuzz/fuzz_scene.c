@@ -27,9 +27,9 @@ static void render(const wf_scene *scene, const wf_raster *raster) {
     if (!wf_aperture_parse("box", &desc.gather.aperture, why, sizeof why)) abort();
     wf_sampling *sampling = wf_sampling_new(&desc);
     wf_sampling_scratch *scratch = sampling ? wf_sampling_scratch_new(sampling) : NULL;
-    if (scratch && wf_sampling_look(sampling, 1))
+    if (scratch && wf_sampling_look(sampling, scratch, 1))
         wf_sampling_rows(sampling, scratch, 0, raster->lines,
-                         &(wf_receiver){NULL, check_finite});
+                         &(wf_receiver){.samples = check_finite});
     wf_sampling_scratch_free(scratch);
     wf_sampling_free(sampling);
 }

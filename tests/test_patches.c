@@ -1,5 +1,4 @@
-/* Samples that stand for more than a point - for a stretch of x, for a time - and patches,
- * against their definitions. */
+/* Samples that stand for a stretch of x, and patches of fields, against their definitions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -172,83 +171,6 @@ static void extents(void **state) {
     }
 }
 
-/* ---- What stands still ---- */
-
-#define TIMES 1000
-
-/* What the window of a line sees of a place that shows one colour for from..to. */
-static double seen_over(const bench *b, const scenario *s, double u, double v, double q,
-                        double lasts) {
-    double sum = 0;
-    for (int n = 0; n < TIMES; n++)
-        sum += height_at(b, s, u, v, q + lasts * (n + 0.5) / TIMES) / TIMES;
-    return sum;
-}
-
-typedef struct place {
-    float x, y, rgb;
-    double from, to;
-} place;
-
-static void add_still(const bench *b, const scenario *s, const place *p) {
-    const wf_samples samples = {.count = 1,
-                                .x = &p->x,
-                                .y = &p->y,
-                                .field = s->field,
-                                .rgb = {&p->rgb, &p->rgb, &p->rgb},
-                                .still = true,
-                                .from = p->from,
-                                .to = p->to};
-    wf_gather_add(b->gather, &samples);
-}
-
-static void check_still(const scenario *s, const bench *b, const place *all) {
-    float *rgb[3];
-    for (int c = 0; c < 3; c++) rgb[c] = malloc((size_t)b->raster.width_px * sizeof(float));
-    for (int l = 0; l < b->lines; l += 2) {
-        int j = b->parity + l * b->step;
-        wf_gather_line(b->gather, l, rgb);
-        for (int i = 0; i < b->raster.width_px; i += 3) {
-            double light = 0, weight = 0;
-            for (int n = 0; n < COUNT; n++) {
-                double u = (double)all[n].x - i - 0.5, v = (double)all[n].y - j - 0.5;
-                if (fabs(u) > 1 || fabs(v) > 2) continue;
-                double q = all[n].from - middle_on(b, s, s->field, j);
-                double h = seen_over(b, s, u, v, q, all[n].to - all[n].from);
-                light += h * (double)all[n].rgb;
-                weight += h;
-            }
-            if (fabs(weight) < 0.3) continue;
-            if (fabs((double)rgb[1][i] - light / weight) > 2e-3)
-                fail_msg("%s: line %d pixel %d is %g, should be %g", s->aperture, j, i,
-                         (double)rgb[1][i], light / weight);
-        }
-    }
-    for (int c = 0; c < 3; c++) free(rgb[c]);
-}
-
-static void still(void **state) {
-    (void)state;
-    for (size_t n = 0; n < sizeof scenarios / sizeof *scenarios; n++) {
-        const scenario *s = &scenarios[n];
-        if (!(s->tau > 0)) continue;
-        bench b = open_bench(s);
-        place all[COUNT];
-        uint32_t seed = 9;
-        start(&b, s);
-        for (int k = 0; k < COUNT; k++) {
-            all[k].x = (float)uniform(&seed, 0.1, 23.9);
-            all[k].y = (float)uniform(&seed, 0, 16);
-            all[k].rgb = (float)uniform(&seed, 0, 1);
-            all[k].from = uniform(&seed, -1, 1);
-            all[k].to = all[k].from + uniform(&seed, 0.2, 2);
-            add_still(&b, s, &all[k]);
-        }
-        check_still(s, &b, all);
-        wf_gather_free(b.gather);
-    }
-}
-
 /* ---- Patches ---- */
 
 /* A patch holds all that its samples reach, and its sums are those of the whole. */
@@ -287,7 +209,6 @@ static void patches(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(extents),
-        cmocka_unit_test(still),
         cmocka_unit_test(patches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
