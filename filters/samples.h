@@ -24,8 +24,6 @@ typedef struct wf_samples {
     int64_t field;
     const float *rgb[3]; /* scene-linear, over the background */
     const float *weight; /* NULL: 1 each */
-    const float *extent; /* NULL, or pixels along x, 1 at most, about x, that each stands for:
-                            an aperture takes as much of a sample as it sees of that */
 } wf_samples;
 
 /* How a raster is cut into rectangles of samples. */

@@ -18,13 +18,9 @@
 #define RUN   64 /* samples taken together */
 #define LANES 8
 
-#define MOST_EXTENT 1.0 /* pixels that a sample may stand for */
-
 /* Samples of one cell; those from count up to a multiple of LANES weigh nothing. */
 typedef struct run {
     int count, padded;
-    bool wide;
-    _Alignas(64) double extent[RUN];                           /* where wide: half of each */
     _Alignas(64) double x[RUN], y[RUN], t[RUN], light[4][RUN]; /* weight * (r, g, b, 1) */
     _Alignas(64) double v[RUN], q[RUN], height[RUN], half_u[RUN];
 } run;
@@ -45,14 +41,12 @@ static int same_cell(const wf_samples *s, size_t first) {
 
 static void load(const wf_samples *s, size_t first, double apart, run *r) {
     r->padded = (r->count + LANES - 1) / LANES * LANES;
-    r->wide = s->extent;
     for (int i = 0; i < r->padded; i++) {
         size_t at = first + (size_t)(i < r->count ? i : 0);
         double w = i >= r->count ? 0 : s->weight ? (double)s->weight[at] : 1;
         r->x[i] = (double)s->x[at];
         r->y[i] = (double)s->y[at];
         r->t[i] = (double)s->t[at] - apart;
-        r->extent[i] = s->extent ? (double)s->extent[at] / 2 : 0;
         r->light[0][i] = w * (double)s->rgb[0][at];
         r->light[1][i] = w * (double)s->rgb[1][at];
         r->light[2][i] = w * (double)s->rgb[2][at];
@@ -80,21 +74,12 @@ static inline lanes where(lane_mask mask, lanes v) {
     return (lanes)((lane_mask)v & mask);
 }
 
-/* The share that each has of what stretches along x: for the widest aperture that is all. */
-static inline lanes part_of(const run *r, int i, lanes u) {
-    lanes half = *(const lanes *)&r->half_u[i], extent = *(const lanes *)&r->extent[i];
-    lanes from = larger(u - extent, -half), to = -larger(-u - extent, -half);
-    lanes part = (to - from) / (2 * extent);
-    return where((part > 0) & (extent > 0), part);
-}
-
 static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
     lanes red = {0}, green = {0}, blue = {0}, weight = {0};
     double left = pixel + 0.5;
     for (int i = 0; i < r->padded; i += LANES) {
         lanes u = *(const lanes *)&r->x[i] - left, half = *(const lanes *)&r->half_u[i];
         lanes h = where((u <= half) & (-u <= half), *(const lanes *)&r->height[i]);
-        if (r->wide) h = *(const lanes *)&r->height[i] * part_of(r, i, u);
         red += h * *(const lanes *)&r->light[0][i];
         green += h * *(const lanes *)&r->light[1][i];
         blue += h * *(const lanes *)&r->light[2][i];
@@ -157,7 +142,6 @@ static void add_to_line(wf_gather *g, run *r, int line, double low, double high)
     find_heights(g, r, g->parity + line * g->line_step);
     double half = widest(r);
     if (half < 0) return;
-    if (r->wide) half += MOST_EXTENT / 2;
     double first = ceil(low - 0.5 - half), last = floor(high - 0.5 + half);
     int from = first > g->held.left ? (int)first : g->held.left;
     int to = last < g->held.right - 1 ? (int)last : g->held.right - 1;

@@ -1,4 +1,4 @@
-/* Samples that stand for a stretch of x, and patches of fields, against their definitions. */
+/* Patches of fields against whole ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -67,112 +67,6 @@ static void start(bench *b, const scenario *s) {
     assert_non_null(b->gather);
 }
 
-/* h at an instant, as resampling.md has it; tau 0 is its limit. */
-static double height_at(const bench *b, const scenario *s, double u, double v, double q) {
-    if (s->tau > 0) {
-        bool seen = fabs(q) <= s->tau / 2;
-        return seen ? wf_aperture_value(&b->desc.aperture, s->tau, u, v, q) : 0;
-    }
-    if (fabs(q) > 0x1p-12) return 0;
-    if (!strcmp(s->aperture, "diamond")) return fabs(u) <= 0.5 ? fmax(0, 1 - fabs(v)) : 0;
-    return wf_aperture_value(&b->desc.aperture, 1, u, v, 0);
-}
-
-static double middle_of(const scenario *s) {
-    return s->position == WF_START ? s->tau / 2 : s->position == WF_END ? -s->tau / 2 : 0;
-}
-
-/* Where the window's middle lies for line j, counted from the instant of field `from`. */
-static double middle_on(const bench *b, const scenario *s, int64_t from, int j) {
-    bool segmented = b->raster.scan == WF_SEGMENTED;
-    double apart = segmented ? (double)(s->field / 2 - from / 2) : (double)(s->field - from);
-    return apart + s->skew * j / b->raster.lines + middle_of(s);
-}
-
-/* ---- What stretches along x ---- */
-
-typedef struct wide {
-    float x[COUNT], y[COUNT], t[COUNT], rgb[COUNT], extent[COUNT];
-} wide;
-
-static wide *make_wide(const scenario *s) {
-    wide *w = calloc(1, sizeof *w);
-    uint32_t seed = 3;
-    assert_non_null(w);
-    for (int n = 0; n < COUNT; n++) {
-        w->x[n] = (float)uniform(&seed, -0.5, 24.5);
-        w->y[n] = (float)uniform(&seed, 0, 16);
-        w->t[n] = s->tau > 0 ? (float)uniform(&seed, -2, 3) : 0;
-        w->rgb[n] = (float)uniform(&seed, 0, 1);
-        w->extent[n] = (float)uniform(&seed, 1e-3, 1);
-    }
-    return w;
-}
-
-/* How far the aperture reaches along x at v: by bisection of its own value. */
-static double half_at(const bench *b, const scenario *s, double v, double q) {
-    double low = 0, high = 3;
-    if (!(height_at(b, s, 0, v, q) != 0)) return 0;
-    for (int n = 0; n < 60; n++) {
-        double middle = (low + high) / 2;
-        if (height_at(b, s, middle, v, q) != 0)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static void check_wide(const scenario *s, const bench *b, const wide *w) {
-    float *rgb[3];
-    for (int c = 0; c < 3; c++) rgb[c] = malloc((size_t)b->raster.width_px * sizeof(float));
-    for (int l = 0; l < b->lines; l++) {
-        wf_gather_line(b->gather, l, rgb);
-        int j = b->parity + l * b->step;
-        for (int i = 0; i < b->raster.width_px; i++) {
-            double light = 0, weight = 0;
-            for (int n = 0; n < COUNT; n++) {
-                double v = (double)w->y[n] - (j + 0.5), q = (double)w->t[n];
-                q -= middle_on(b, s, s->field, j);
-                double half = half_at(b, s, v, q), extent = (double)w->extent[n];
-                double from = fmax(i + 0.5 - half, (double)w->x[n] - extent / 2);
-                double to = fmin(i + 0.5 + half, (double)w->x[n] + extent / 2);
-                double h = height_at(b, s, 0, v, q) * fmax(to - from, 0) / extent;
-                weight += h;
-                light += h * (double)w->rgb[n];
-            }
-            double should = light / weight, is = (double)rgb[1][i];
-            if (fabs(weight) > 1e-3 && fabs(is - should) > 2e-6)
-                fail_msg("%s: line %d pixel %d is %g, should be %g", s->aperture, j, i, is,
-                         should);
-        }
-    }
-    for (int c = 0; c < 3; c++) free(rgb[c]);
-}
-
-static void extents(void **state) {
-    (void)state;
-    for (size_t n = 0; n < sizeof scenarios / sizeof *scenarios; n++) {
-        const scenario *s = &scenarios[n];
-        bench b = open_bench(s);
-        wide *w = make_wide(s);
-        const wf_samples samples = {.count = COUNT,
-                                    .x = w->x,
-                                    .y = w->y,
-                                    .t = w->t,
-                                    .field = s->field,
-                                    .rgb = {w->rgb, w->rgb, w->rgb},
-                                    .extent = w->extent};
-        start(&b, s);
-        wf_gather_add(b.gather, &samples);
-        check_wide(s, &b, w);
-        wf_gather_free(b.gather);
-        free(w);
-    }
-}
-
-/* ---- Patches ---- */
-
 /* A patch holds all that its samples reach, and its sums are those of the whole. */
 static void patches(void **state) {
     (void)state;
@@ -181,9 +75,18 @@ static void patches(void **state) {
         bench b = open_bench(s);
         float whole[3][24], part[3][24];
         float *const rows[2][3] = {{whole[0], whole[1], whole[2]}, {part[0], part[1], part[2]}};
-        float x[2] = {7.25f, 11.5f}, y[2] = {5.5f, 8.75f}, t[2] = {0, 0}, v[2] = {1, 0.5f};
-        const wf_samples samples = {
-            .count = 2, .x = x, .y = y, .t = t, .field = s->field, .rgb = {v, v, v}};
+        float v[5][COUNT];
+        uint32_t seed = 3;
+        const double from[5] = {7, 5, -2, 0, 0.1}, to[5] = {12, 9, 2, 1, 2};
+        for (int k = 0; k < 5 * COUNT; k++)
+            v[k % 5][k / 5] = (float)uniform(&seed, from[k % 5], to[k % 5]);
+        const wf_samples samples = {.count = COUNT,
+                                    .x = v[0],
+                                    .y = v[1],
+                                    .t = v[2],
+                                    .field = s->field,
+                                    .rgb = {v[3], v[3], v[3]},
+                                    .weight = v[4]};
         start(&b, s);
         wf_gather_add(b.gather, &samples);
         wf_patch patch =
@@ -208,7 +111,6 @@ static void patches(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(extents),
         cmocka_unit_test(patches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
