@@ -113,10 +113,19 @@ static void receive(void *user, const wf_samples *samples) {
         add(&s->taking->takers[n], s->still ? s->patch[n] : s->sums[n], samples);
 }
 
+static void fill(const wf_strips *s, const wf_sample_tile *tile) {
+    for (int n = 0; n < s->taking->count; n++)
+        if (s->sums[n]) wf_gather_fill(s->sums[n], tile, tile->all);
+}
+
 static bool begin_tile(void *user, const wf_sample_tile *tile) {
     wf_strips *s = user;
     put_away(s);
     s->tile = *tile;
+    if (tile->all) {
+        fill(s, tile);
+        return false;
+    }
     if (tile->still && take_kept(s)) return false;
     s->still = tile->still;
     if (s->still) open_patches(s);

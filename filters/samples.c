@@ -115,6 +115,20 @@ void wf_gather_add(wf_gather *g, const wf_samples *samples) {
     levels[wf_isa_levels() - 1](g, samples, wf_gather_apart(g, samples->field));
 }
 
+void wf_gather_fill(wf_gather *g, const wf_sample_tile *tile, const float rgb[3]) {
+    for (int line = g->held.first; line < g->held.end; line++) {
+        int row = g->parity + line * g->line_step;
+        if (row < tile->first || row >= tile->end) continue;
+        wf_pixel_sum *sum = wf_gather_sums(g, line);
+        for (int i = tile->left; i < tile->right; i++) {
+            sum[i].r += (double)rgb[0];
+            sum[i].g += (double)rgb[1];
+            sum[i].b += (double)rgb[2];
+            sum[i].weight += 1;
+        }
+    }
+}
+
 static wf_patch overlap(const wf_patch *a, const wf_patch *b) {
     return (wf_patch){.left = a->left > b->left ? a->left : b->left,
                       .right = a->right < b->right ? a->right : b->right,

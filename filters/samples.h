@@ -35,6 +35,8 @@ typedef struct wf_sample_tiling {
 typedef struct wf_sample_tile {
     int index;                   /* which, counted over the raster */
     int left, right, first, end; /* pixels, frame rows */
+    const float *all; /* NULL, or: R, G, B of all in it and within a tile's size of it; there
+                         are no samples then */
     bool still; /* at all times at which it is, its samples are the same, as counted from the
                    instant of their field */
     bool both;  /* and serve fields of both parities */
@@ -82,6 +84,10 @@ size_t wf_gather_bytes(const wf_gather_desc *desc, int lines);
 
 /* Adds samples; those that reach no pixel that is held add nothing. */
 void wf_gather_add(wf_gather *gather, const wf_samples *samples);
+
+/* Adds a sample of weight 1 to each pixel whose middle lies in a rectangle, of a colour that
+ * all other samples that these pixels see have too. */
+void wf_gather_fill(wf_gather *gather, const wf_sample_tile *tile, const float rgb[3]);
 
 /* Adds the sums of `from` where they overlap; of the same field, or of one that is to look like
  * it: of the same parity. */

@@ -115,6 +115,7 @@ bool wf_sampling_look(wf_sampling *s, wf_sampling_scratch *c, int64_t unit) {
     if (!wf_tracer_look(s->tracer, &window, s->desc.skip)) return false;
     const double x[2] = {0, s->raster.width_px}, y[2] = {0, s->raster.lines};
     s->still = wf_trace_still(s->tracer, c->trace, x, y);
+    s->nothing = wf_trace_nothing(s->tracer, c->trace, x, y);
     return true;
 }
 
@@ -279,42 +280,23 @@ static bool serves_both(const wf_sampling *s) {
     return kind->reach_v > 0.5 && !(s->skew > 0) && !(kind->couples_vq && s->tau > 0);
 }
 
-/* Where nothing but background is seen, in this tile and in those about it, that is known
- * without samples: one for each cell says it to the pixels. */
-static bool is_background(const wf_tile *t, int first, int end) {
+/* Where nothing but background is seen, in a tile and in those about it, that is known without
+ * samples: a pixel that sees into this tile then sees no further than those. */
+static const float *background_of(const wf_tile *t, int first, int end) {
+    const wf_aperture_kind *kind = t->s->desc.gather.aperture.kind;
     const double x[2] = {t->x0 - TILE_WIDTH, t->x1 + TILE_WIDTH};
     const double y[2] = {first - TILE_HEIGHT, end + TILE_HEIGHT};
-    return t->s->desc.skip && t->receiver->tile && !(t->s->skew > 0) &&
-           wf_trace_nothing(t->s->tracer, t->c->trace, x, y);
-}
-
-static void emit_background(const wf_tile *t, int first, int end) {
-    wf_sampling_scratch *c = t->c;
-    for (int row = first; row < end; row++) {
-        wf_row_time time;
-        size_t count = (size_t)(t->x1 - t->x0);
-        if (!wf_find_row_time(t->s, row, &time)) continue;
-        for (size_t n = 0; n < count; n++) {
-            c->x[n] = (float)t->x0 + (float)n + 0.5F;
-            c->y[n] = (float)row + 0.5F;
-            c->t[n] = (float)wf_on_time_grid((time.from + time.to) / 2);
-            for (int k = 0; k < 3; k++) c->rgb[k][n] = t->s->desc.scene->background[k];
-        }
-        const wf_samples samples = {.count = count,
-                                    .x = c->x,
-                                    .y = c->y,
-                                    .t = c->t,
-                                    .field = t->s->field,
-                                    .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
-        t->receiver->samples(t->receiver->user, &samples);
-    }
+    if (!t->s->desc.skip || 2 * kind->reach_u > TILE_WIDTH || 2 * kind->reach_v > TILE_HEIGHT)
+        return NULL;
+    bool nothing = t->s->nothing || wf_trace_nothing(t->s->tracer, t->c->trace, x, y);
+    return nothing ? t->s->desc.scene->background : NULL;
 }
 
 static int tiles_across(const wf_sampling *s) {
     return (s->raster.width_px + TILE_WIDTH - 1) / TILE_WIDTH;
 }
 
-static bool is_wanted(const wf_tile *t, int first, int end, bool still) {
+static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bool still) {
     const wf_receiver *r = t->receiver;
     int above = first / TILE_HEIGHT * tiles_across(t->s);
     const wf_sample_tile tile = {.index = above + t->x0 / TILE_WIDTH,
@@ -322,21 +304,20 @@ static bool is_wanted(const wf_tile *t, int first, int end, bool still) {
                                  .right = t->x1,
                                  .first = first,
                                  .end = end,
+                                 .all = all,
                                  .still = still,
                                  .both = serves_both(t->s)};
-    return !r->tile || r->tile(r->user, &tile);
+    return r->tile(r->user, &tile);
 }
 
 static bool trace_tile(wf_tile *t, int first, int end) {
     const double x[2] = {t->x0, t->x1}, y[2] = {first, end};
     bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y);
     t->time = still ? STILL : t->s->unit;
-    if (!is_wanted(t, first, end, still)) return true;
+    const float *all = t->receiver->tile ? background_of(t, first, end) : NULL;
+    if (all) wf_trace_skip(t->c->trace);
+    if (t->receiver->tile && !is_wanted(t, first, end, all, still)) return true;
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
-    if (empty && is_background(t, first, end)) {
-        emit_background(t, first, end);
-        return true;
-    }
     if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, empty);
     return t->s->instants ? trace_instant_rows(t, first, end) : trace_rows(t, first, end);
 }

@@ -32,6 +32,7 @@ struct wf_sampling {
     bool instants; /* each line has an instant of its own */
     int64_t unit, field;
     bool still;   /* nothing seen moves in the unit */
+    bool nothing; /* but background is seen */
     double start; /* of the unit's window, field periods from the field's instant */
 };
 

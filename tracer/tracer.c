@@ -298,6 +298,11 @@ bool wf_trace_nothing(const wf_tracer *t, wf_trace_scratch *s, const double x[2]
     return wf_find(t, s, NULL, &shaft, &s->tile) && s->tile.part_count == 0;
 }
 
+void wf_trace_skip(wf_trace_scratch *s) {
+    s->counts.tiles++;
+    s->counts.tiles_skipped++;
+}
+
 static void fill_packet(const wf_tracer *t, const wf_trace_samples *samples, size_t first,
                         wf_packet *packet) {
     _Alignas(64) double x[WF_PACKET], y[WF_PACKET];

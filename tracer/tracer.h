@@ -71,6 +71,9 @@ bool wf_trace_prepare(const wf_tracer *tracer, wf_trace_scratch *scratch, const 
 bool wf_trace_nothing(const wf_tracer *tracer, wf_trace_scratch *scratch, const double x[2],
                       const double y[2]);
 
+/* Counts a tile that nothing is traced for. */
+void wf_trace_skip(wf_trace_scratch *scratch);
+
 /* Light at samples inside the rectangle prepared for. False: no memory. */
 bool wf_trace(const wf_tracer *tracer, wf_trace_scratch *scratch,
               const wf_trace_samples *samples);
