@@ -56,6 +56,10 @@ if [ -z "${WEFT_SANITIZE:-}" ]; then
             grep -v -E '\.data\.rel\.ro| \.(data|bss)$' | awk '{print $NF}' | grep -v -E "$allowed")"
 fi
 
+none "arithmetic is that of the standard" \
+    "$(grep -n -i -E 'fast-math|Ofast|associative-math|reciprocal-math|finite-math|unsafe-math|no-signed-zeros|ftz|denormals-are-zero|_MM_SET_FLUSH' \
+        CMakeLists.txt $(sources) "$WEFT_BUILD/compile_commands.json")"
+
 quoted_includes() # FOLDER: file, and the file it includes
 {
     find "$1" -name '*.[ch]' -o -name '*.cpp' | xargs -r grep -H -o -E '^ *# *include +"[^"]+"' |

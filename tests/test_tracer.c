@@ -305,14 +305,13 @@ static void scaled(char *text, size_t size, double s) {
 }
 
 static void powers_of_two(void **state) {
-    static const int powers[] = {-40, -13, 1, 7, 40};
     char one[2048], other[2048];
     (void)state;
     scaled(one, sizeof one, 1);
-    for (size_t n = 0; n < sizeof powers / sizeof *powers; n++) {
-        scaled(other, sizeof other, ldexp(1, powers[n]));
+    for (int power = -40; power <= 40; power++) {
+        scaled(other, sizeof other, ldexp(1, power));
         scene_job a = job_of(one, "box", (wf_rational){1, 2}), b = a;
-        a.count = b.count = 8;
+        a.count = b.count = 2;
         b.text = other;
         same_pictures(&a, &b, 0);
     }

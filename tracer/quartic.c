@@ -56,7 +56,7 @@ int wf_quartic_runs(const double q[5], double from, double to, double end[4]) {
     double root[6], edge[8];
     int count = 0, runs = 0;
     int found = roots_of(q, 4, from, to, root);
-    if (value(q, 4, from) <= 0) edge[count++] = from;
+    if (value(q, 4, from) < 0) edge[count++] = from;
     for (int k = 0; k < found; k++) edge[count++] = root[k];
     if (count % 2) edge[count++] = to;
     for (int k = 0; k + 1 < count && runs < 2; k += 2, runs++) {

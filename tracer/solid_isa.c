@@ -9,6 +9,7 @@
 
 #include "tracer/quartic.h"
 #include "tracer/solid.h"
+#include "tracer/twice.h"
 
 #ifndef WF_ISA
 #define WF_ISA v1
@@ -43,8 +44,61 @@ static inline void slab(double o, double d, double low, double high, double *in,
     *out = along ? (inside ? HUGE_VAL : -HUGE_VAL) : most(a, b);
 }
 
+/* ---- Tangents ---- */
+
+/* x^2 + z^2 + round y^2 <= (a + b y)^2: a sphere, the sides of cylinders and cones. */
+typedef struct round_side {
+    double round, a, b;
+} round_side;
+
+/* Where doubles cannot tell whether a ray meets a side, seen from where it begins. */
+static inline double doubt(const wf_rays *r, int i) {
+    double size = 1 + fabs(r->ox[i]) + fabs(r->oy[i]) + fabs(r->oz[i]);
+    return 0x1p-44 * size * size;
+}
+
+/* The product of o and d in the metric of the side, in twice the digits; less 1 times r(o)
+ * r(d), the radius being a + b y at a point and b y along a direction. */
+static wf_twice metric(const round_side *s, const double o[3], const double d[3], double ro,
+                       double rd) {
+    wf_twice sum = wf_twice_product(wf_twice_of(o[0]), wf_twice_of(d[0]));
+    sum = wf_twice_sum(sum, wf_twice_product(wf_twice_of(o[2]), wf_twice_of(d[2])));
+    if (s->round != 0)
+        sum = wf_twice_sum(sum, wf_twice_product(wf_twice_of(o[1]), wf_twice_of(d[1])));
+    wf_twice by = wf_twice_of(s->b);
+    wf_twice at = wf_twice_sum(wf_twice_of(ro), wf_twice_product(by, wf_twice_of(o[1])));
+    wf_twice to = wf_twice_sum(wf_twice_of(rd), wf_twice_product(by, wf_twice_of(d[1])));
+    return wf_twice_sum(sum, wf_twice_minus(wf_twice_product(at, to)));
+}
+
+/* A ray that all but touches a side, once more. */
+static void touch(const round_side *s, const wf_rays *r, int i, wf_runs *runs) {
+    const double o[3] = {r->ox[i], r->oy[i], r->oz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
+    wf_twice q2 = metric(s, d, d, 0, 0), q1 = metric(s, o, d, s->a, 0);
+    wf_twice q0 = metric(s, o, o, s->a, s->a);
+    wf_twice disc =
+        wf_twice_sum(wf_twice_product(q1, q1), wf_twice_minus(wf_twice_product(q2, q0)));
+    double middle = -q1.high / q2.high, half = sqrt(most(disc.high, 0)) / q2.high;
+    double in = -HUGE_VAL, out = HUGE_VAL;
+    if (!(q2.high > 0)) return;
+    if (s->round == 0) slab(o[1], d[1], -1, 1, &in, &out);
+    put(runs, 0, i, most(in, middle - half), least(out, middle + half));
+}
+
+/* Those of the rays that are off a side by less than 0. */
+static void touch_near(round_side s, const wf_rays *r, const double *off, wf_runs *runs) {
+    int64_t near = 0;
+    int n = padded(r);
+    for (int i = 0; i < n; i++) near += off[i] < 0;
+    for (int i = 0; near && i < n; i++)
+        if (off[i] < 0) touch(&s, r, i, runs);
+}
+
+/* ---- Solids ---- */
+
 static void sphere(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
                    wf_runs *runs) {
+    double off[WF_PACKET];
     (void)solid, (void)planes;
     for (int i = 0, n = padded(r); i < n; i++) {
         double dx = r->dx[i], dy = r->dy[i], dz = r->dz[i], dd = dx * dx + dy * dy + dz * dz;
@@ -52,7 +106,9 @@ static void sphere(const wf_solid *solid, const wf_plane *planes, const wf_rays 
         double x = r->ox[i] + near * dx, y = r->oy[i] + near * dy, z = r->oz[i] + near * dz;
         double rest = 1 - (x * x + y * y + z * z), half = sqrt(most(rest, 0) / dd);
         put(runs, 0, i, near - half, near + half);
+        off[i] = fabs(rest) - doubt(r, i);
     }
+    touch_near((round_side){1, 1, 0}, r, off, runs);
 }
 
 static void box(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
@@ -69,6 +125,7 @@ static void box(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
 
 static void cylinder(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
                      wf_runs *runs) {
+    double off[WF_PACKET];
     (void)solid, (void)planes;
     for (int i = 0, n = padded(r); i < n; i++) {
         double dx = r->dx[i], dz = r->dz[i], dd = dx * dx + dz * dz, in, out;
@@ -78,7 +135,9 @@ static void cylinder(const wf_solid *solid, const wf_plane *planes, const wf_ray
         double half = along ? (rest > 0 ? HUGE_VAL : 0) : sqrt(most(rest, 0) / dd);
         slab(r->oy[i], r->dy[i], -1, 1, &in, &out);
         put(runs, 0, i, most(in, near - half), least(out, near + half));
+        off[i] = fabs(rest) - doubt(r, i);
     }
+    touch_near((round_side){0, 1, 0}, r, off, runs);
 }
 
 /* One nappe of x^2 + z^2 <= (a + b y)^2, cut by |y| <= 1, is convex: one run. */
@@ -86,6 +145,7 @@ static void cone(const wf_solid *solid, const wf_plane *planes, const wf_rays *r
                  wf_runs *runs) {
     double b = (solid->shape[1] - solid->shape[0]) / 2,
            a = (solid->shape[1] + solid->shape[0]) / 2;
+    double off[WF_PACKET];
     (void)planes;
     for (int i = 0, n = padded(r); i < n; i++) {
         double dx = r->dx[i], dy = r->dy[i], dz = r->dz[i], dd = dx * dx + dy * dy + dz * dz;
@@ -110,7 +170,9 @@ static void cone(const wf_solid *solid, const wf_plane *planes, const wf_rays *r
         to = full ? HUGE_VAL : misses ? -HUGE_VAL : to;
         slab(y, dy, -1, 1, &in, &out);
         put(runs, 0, i, near + most(in, from), near + least(out, to));
+        off[i] = fabs(disc) - doubt(r, i) * dd;
     }
+    touch_near((round_side){0, a, b}, r, off, runs);
 }
 
 static void halfspace(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
