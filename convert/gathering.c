@@ -44,7 +44,8 @@ struct wf_gathering {
 
     /* What is still is kept: whole fields, one of each parity, and tiles. */
     bool keeps;
-    int *way; /* [units of a field, from its last]: those of one number it sees alike */
+    int *way; /* [units of a field, from its last]: those of one number it sees alike; of a
+                 source with tiles */
     int ways;
     wf_gather *kept[2];
     wf_shelf shelf;
@@ -110,31 +111,36 @@ static bool find_ways(wf_gathering *g, int *units) {
     g->way = calloc((size_t)*units, sizeof *g->way);
     g->ways = 1;
     for (int n = 0; g->way && n < *units; n++)
-        if (g->source.whole && !g->source.whole(g->source.self, 0, last - n))
-            g->way[n] = g->ways++;
+        if (!g->source.whole(g->source.self, 0, last - n)) g->way[n] = g->ways++;
     return g->way;
 }
 
-/* What is still is kept where that takes less than a quarter of the memory. */
-static bool make_room_to_keep(wf_gathering *g) {
-    int tiles = g->source.tiling.count, units;
-    if (!find_ways(g, &units)) return false;
-    g->most_takers = 2 * (g->flight_most + 4 * units);
-    g->takers = calloc((size_t)g->most_takers, sizeof *g->takers);
-    g->keeps = g->job->skip && tiles > 0 && kept_bytes(g) < g->job->max_memory_bytes / 4;
-    return g->takers && (!g->keeps || wf_shelf_new(tiles, 2 * g->ways, &g->shelf));
+/* What a run holds at most, without what it keeps. */
+static size_t needed_bytes(const wf_gathering *g) {
+    return (size_t)g->flight_most * field_bytes(g) +
+           (size_t)g->threads * (size_t)g->flight_most *
+               wf_gather_bytes(&g->desc, BAND_ROWS + 4) +
+           wf_frames_bytes(g->job, g->setup, g->flight_most);
 }
 
 static weft_status check_memory(const wf_gathering *g, weft_error *err) {
-    size_t bytes =
-        (size_t)g->flight_most * field_bytes(g) +
-        (size_t)g->threads * (size_t)g->flight_most * wf_gather_bytes(&g->desc, BAND_ROWS + 4) +
-        wf_frames_bytes(g->job, g->setup, g->flight_most);
+    size_t bytes = needed_bytes(g);
     if (bytes <= g->job->max_memory_bytes) return WEFT_OK;
     return wf_fail(err, WEFT_NO_MEMORY,
                    "this needs %zu MB and --max-memory allows %zu MB; allow more, or use fewer "
                    "--threads",
                    bytes >> 20, g->job->max_memory_bytes >> 20);
+}
+
+/* What is still is kept where there is memory left. */
+static bool make_room_to_keep(wf_gathering *g) {
+    int tiles = g->source.tiling.count, units = 0;
+    if (tiles > 0 && !find_ways(g, &units)) return false;
+    g->most_takers = 2 * (g->flight_most + 4 * units);
+    g->takers = calloc((size_t)g->most_takers, sizeof *g->takers);
+    g->keeps = g->job->skip && tiles > 0 &&
+               kept_bytes(g) + needed_bytes(g) <= g->job->max_memory_bytes;
+    return g->takers && (!g->keeps || wf_shelf_new(tiles, 2 * g->ways, &g->shelf));
 }
 
 static weft_status fill(wf_gathering *g, weft_error *err) {
@@ -227,7 +233,7 @@ static void add_taker(wf_gathering *g, int64_t unit, int64_t field, int64_t shif
     int parity = wf_raster_parity(&g->job->raster, field + shift);
     wf_taker t = {.field = field + shift, .shift = shift};
     t.waits = shift == 0 && place >= 0 && place < g->flight_count && !g->flight[place].follows;
-    t.slot = 2 * g->way[last - unit] + parity;
+    t.slot = g->way ? 2 * g->way[last - unit] + parity : 0;
     t.like = like(g, t.slot);
     bool more = t.waits || (g->keeps && t.like == g->taker_count);
     if (more && g->taker_count < g->most_takers) g->takers[g->taker_count++] = t;
