@@ -1,7 +1,8 @@
 /* How far a picture is from a truth: bench-compare TRUTH PICTURE [BOUND]. Prints the RMS of the
  * difference of display-encoded values (Rec. 709), and with a bound the share of pixels whose
  * RMS over their channels lies within it. A truth of several pictures, comma between them, is
- * their mean; then what is printed third is its own uncertainty. */
+ * their mean; then what is printed third is its own uncertainty. Where the truth is below 0
+ * nothing is known, and compared. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,13 +61,15 @@ int main(int argc, char **argv) {
     int count = load_all(argv[1], truth);
     wf_image is = load(argv[2]);
     double bound = argc > 3 ? atof(argv[3]) : HUGE_VAL, square = 0;
-    size_t pixels = (size_t)is.width_px * (size_t)is.height_px, within = 0;
+    size_t pixels = (size_t)is.width_px * (size_t)is.height_px, within = 0, known = 0;
     if (count < 1 || truth[0].width_px != is.width_px || truth[0].height_px != is.height_px) {
         fprintf(stderr, "bench-compare: %s and %s differ in size\n", argv[1], argv[2]);
         return 1;
     }
     for (size_t i = 0; i < pixels; i++) {
         double own = 0;
+        if (mean_of(truth, count, 3 * i) < 0) continue;
+        known++;
         for (size_t at = 3 * i; at < 3 * i + 3; at++) {
             double e = encoded((double)is.rgb[at]) - encoded(mean_of(truth, count, at));
             own += e * e / 3;
@@ -74,7 +77,7 @@ int main(int argc, char **argv) {
         square += own;
         within += sqrt(own) <= bound;
     }
-    printf("%.6g %.6f %.6g\n", sqrt(square / (double)pixels), (double)within / (double)pixels,
+    printf("%.6g %.6f %.6g\n", sqrt(square / (double)known), (double)within / (double)known,
            uncertainty(truth, count, 3 * pixels));
     for (int n = 0; n < count; n++) free(truth[n].rgb);
     free(is.rgb);

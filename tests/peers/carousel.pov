@@ -16,8 +16,9 @@ background { rgb <0.25, 0.42, 0.72> }
 #declare Right = vnormalize(vcross(Forward, y));
 #declare Up = vcross(Right, Forward);
 #declare Height = 2 * tan(radians(33 / 2));
+#ifndef (Lines) #declare Lines = 0; #end // how many of 486 the picture is shifted up
 camera {
-    perspective location Eye direction Forward
+    perspective location Eye direction Forward + Up * Height * Lines / 486
     right Right * Height * (720 * 10 / 11) / 486 up Up * Height
 }
 light_source { <9, 17, 11> color rgb <1.0, 0.94, 0.84> }
