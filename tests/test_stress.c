@@ -291,12 +291,38 @@ static void late_frames(void **state) {
     free(late);
 }
 
+/* ---- Rays along planes ---- */
+
+/* Half-spaces whose faces no ray meets, however they are turned: what one takes away is what is
+ * left of its complement, to the bit. */
+static void along_planes(void **state) {
+    (void)state;
+    int differ = 0;
+    for (int k = 0; k < 24; k++) {
+        double turn = 0.1 + 0.26 * k, x = cos(turn), y = sin(turn);
+        char taken[1024], left[1024];
+        const char *shape =
+            ORTHO "local function side(x, y, at) return halfspace{normal={x, y, 0}, offset=at} "
+                  "end\n"
+                  "add(((side(%.17g, %.17g, 11.3) %s side(%.17g, %.17g, %.17g)) *\n"
+                  "     halfspace{normal={0, 0, 1}})" WHITE ")";
+        snprintf(taken, sizeof taken, shape, x, y, "-", x, y, 2.1);
+        snprintf(left, sizeof left, shape, x, y, "*", -x, -y, -2.1);
+        scene_job jobs[] = {job_of(taken, 16), job_of(left, 16)};
+        double means[] = {mean_of(&jobs[0]), mean_of(&jobs[1])};
+        differ += means[0] != means[1];
+    }
+    print_message(
+        "of 24 slabs of half-spaces looked along, %d differ from their complement's\n", differ);
+    assert_int_equal(differ, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangents),           cmocka_unit_test(gaps),
         cmocka_unit_test(needles_and_plates), cmocka_unit_test(tori),
         cmocka_unit_test(powers_of_ten),      cmocka_unit_test(far_rooms),
-        cmocka_unit_test(late_frames),
+        cmocka_unit_test(late_frames),        cmocka_unit_test(along_planes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -175,14 +175,17 @@ static void cone(const wf_solid *solid, const wf_plane *planes, const wf_rays *r
     touch_near((round_side){0, a, b}, r, off, runs);
 }
 
+/* A ray whose rise is within what rounding makes of 0 runs along the plane, and does not meet
+ * it far away; as long as the half-space is scaled about evenly. */
 static void halfspace(const wf_solid *solid, const wf_plane *planes, const wf_rays *r,
                       wf_runs *runs) {
     (void)solid, (void)planes;
     for (int i = 0, n = padded(r); i < n; i++) {
+        double along = (fabs(r->dx[i]) + fabs(r->dz[i])) * 0x1p-51;
         double dy = r->dy[i], at = -r->oy[i] / dy;
         bool below = r->oy[i] <= 0;
-        double in = dy < 0 ? at : dy > 0 || below ? -HUGE_VAL : HUGE_VAL;
-        double out = dy > 0 ? at : dy < 0 || below ? HUGE_VAL : -HUGE_VAL;
+        double in = dy < -along ? at : ((dy > along) | below) ? -HUGE_VAL : HUGE_VAL;
+        double out = dy > along ? at : ((dy < -along) | below) ? HUGE_VAL : -HUGE_VAL;
         put(runs, 0, i, in, out);
     }
 }
