@@ -65,10 +65,12 @@ static void gather_samples(void *user, const wf_samples *samples) {
     wf_gather_add(user, samples);
 }
 
-/* As the program does it: bands into sums of their own, merged in order. */
-static void gather_unit(const wf_sampling *sampling, const wf_gather_desc *desc, int64_t field,
-                        wf_gather *all) {
+/* As the program does it: bands into sums of their own, merged in order. Returns how many
+ * samples were traced. */
+static int64_t gather_unit(const wf_sampling *sampling, const wf_gather_desc *desc,
+                           int64_t field, wf_gather *all) {
     int lines = desc->raster->lines;
+    int64_t samples = 0;
 #pragma omp parallel num_threads(2)
     {
         wf_sampling_scratch *scratch = wf_sampling_scratch_new(sampling);
@@ -85,11 +87,14 @@ static void gather_unit(const wf_sampling *sampling, const wf_gather_desc *desc,
             wf_gather_merge(all, band);
             wf_gather_free(band);
         }
+#pragma omp atomic
+        samples += wf_sampling_counted(scratch).samples;
         wf_sampling_scratch_free(scratch);
     }
+    return samples;
 }
 
-static wf_gather *gather_field(const wf_sampling_desc *desc, int64_t field) {
+static wf_gather *gather_field(const wf_sampling_desc *desc, int64_t field, int64_t *samples) {
     const wf_raster *r = desc->gather.raster;
     wf_sampling *sampling = wf_sampling_new(desc);
     int lines = wf_raster_field_lines(r, wf_raster_parity(r, field));
@@ -97,9 +102,10 @@ static wf_gather *gather_field(const wf_sampling_desc *desc, int64_t field) {
     int64_t unit, last;
     wf_sampling_scratch *scratch = sampling ? wf_sampling_scratch_new(sampling) : NULL;
     assert_true(scratch && all);
+    *samples = 0;
     for (wf_sampling_units(sampling, field, &unit, &last); unit <= last; unit++) {
         assert_true(wf_sampling_look(sampling, scratch, unit));
-        gather_unit(sampling, &desc->gather, field, all);
+        *samples += gather_unit(sampling, &desc->gather, field, all);
     }
     wf_sampling_scratch_free(scratch);
     wf_sampling_free(sampling);
@@ -131,10 +137,12 @@ float *scene_field(const scene_job *job, int64_t field) {
                              .sampler = job->sampler,
                              .count = job->count,
                              .seed = job->seed,
+                             .error = job->error,
                              .skip = !job->no_skip};
     if (!wf_aperture_parse(job->aperture, &desc.gather.aperture, why, sizeof why))
         fail_msg("%s", why);
-    wf_gather *gather = gather_field(&desc, field);
+    int64_t samples;
+    wf_gather *gather = gather_field(&desc, field, job->samples ? job->samples : &samples);
     int lines = wf_raster_field_lines(&raster, wf_raster_parity(&raster, field));
     float *out = malloc(3 * (size_t)raster.width_px * (size_t)lines * sizeof *out);
     assert_non_null(out);

@@ -14,6 +14,8 @@ typedef struct scene_job {
     wf_position position;
     wf_sampler_kind sampler;
     int count;
+    double error;     /* asked for, instead of a count; 0: none */
+    int64_t *samples; /* NULL, or: how many were traced for a field */
     uint64_t seed;
     bool no_skip;
     const char *params[4][2];

@@ -15,12 +15,17 @@ wf_rational wf_sampling_period(const wf_sampling *s) {
     return wf_raster_field_period(&s->raster);
 }
 
+/* Instants that go down the picture have few samples each and are never adaptive. */
+static bool adapts(const wf_sampling *s) {
+    return s->desc.error > 0 && !s->instants;
+}
+
 static bool make_parts(wf_sampling *s) {
     const wf_raster *r = &s->raster;
     const wf_view view = {r->width_px, r->lines, wf_ratio_value(r->pixel_aspect),
                           wf_ratio_value(wf_sampling_period(s))};
     s->tracer = wf_tracer_new(s->desc.scene, &view);
-    int count = s->desc.error > 0 ? WF_QUARTERS * WF_MOST_EACH : s->desc.count;
+    int count = adapts(s) ? WF_QUARTERS * WF_MOST_EACH : s->desc.count;
     s->sampler = wf_sampler_new(s->desc.sampler, count, s->desc.seed);
     return s->tracer && s->sampler;
 }
@@ -33,13 +38,13 @@ wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
     s->tau = wf_ratio_value(desc->gather.width);
     s->skew = wf_ratio_given(desc->gather.skew) ? wf_ratio_value(desc->gather.skew) : 0;
     s->anchor = anchor_of(desc->gather.position);
+    s->instants = s->skew > 0 && !(s->tau > 0); /* each line has one of its own */
     if (!make_parts(s)) {
         wf_sampling_free(s);
         return NULL;
     }
     /* A sample that two fields share would be at two fractions of their windows. */
     s->periods = s->tau > 1 && !wf_tracer_own_widths(s->tracer);
-    s->instants = s->skew > 0 && !(s->tau > 0);
     return s;
 }
 
@@ -75,6 +80,8 @@ void wf_sampling_scratch_free(wf_sampling_scratch *c) {
     for (size_t n = 0; n < sizeof floats / sizeof *floats; n++) free(floats[n]);
     for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++) free(doubles[n]);
     wf_points_free(&c->kept);
+    wf_points_free(&c->probes);
+    wf_edges_free(&c->edges);
     free(c);
 }
 
@@ -132,27 +139,30 @@ bool wf_sampling_whole(const wf_sampling *s, int64_t field, int64_t unit) {
 
 /* ---- Rows ---- */
 
-/* Whether a sample at y, q from a window's middle is within an aperture of any line: the
- * diamonds leave gaps between them. */
-bool wf_within_reach(const wf_sampling *s, double y, double t) {
-    const wf_aperture *a = &s->desc.gather.aperture;
-    if (!a->kind->couples_vq || !(s->tau > 0) || s->skew > 0 || s->periods) return true;
-    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, s->field);
-    double q = t - s->start - s->tau / 2;
-    for (int l = (int)floor((y - parity) / step) - 1, n = 0; n < 3; n++, l++)
-        if (wf_aperture_value(a, s->tau, 0, y - (parity + l * step + 0.5), q) != 0) return true;
+/* Fields that see the unit's first instant: both of a segmented frame. */
+static int fields_of_unit(const wf_sampling *s) {
+    return s->raster.scan == WF_SEGMENTED ? 2 : 1;
+}
+
+/* Whether a sample at y, q from a window's middle is within an aperture of any line of a field.
+ */
+static bool is_within(const wf_sampling *s, int64_t field, double y, double q) {
+    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, field);
+    for (int l = (int)floor((y - parity) / step) - 1, n = 0; n < 3; n++, l++) {
+        double v = y - (parity + l * step + 0.5);
+        if (wf_aperture_value(&s->desc.gather.aperture, s->tau, 0, v, q) != 0) return true;
+    }
     return false;
 }
 
-float wf_in_cell(float v, int cell) {
-    float at = (float)cell + v, end = (float)(cell + 1);
-    return at < end ? at : nextafterf(end, 0);
-}
-
-/* Times are whole millionths (2^-20) of a field, so that a float holds them whichever field
- * they are counted from. */
-double wf_on_time_grid(double t) {
-    return floor(t * 0x1p20) * 0x1p-20;
+/* The diamonds leave gaps between them. */
+static bool is_within_reach(const wf_sampling *s, double y, double t) {
+    const wf_aperture *a = &s->desc.gather.aperture;
+    if (!a->kind->couples_vq || !(s->tau > 0) || s->skew > 0 || s->periods) return true;
+    double q = t - s->start - s->tau / 2;
+    for (int n = 0; n < fields_of_unit(s); n++)
+        if (is_within(s, s->field + n, y, q)) return true;
+    return false;
 }
 
 double wf_window_fraction(const wf_sampling *s, double t, double late, double f) {
@@ -176,7 +186,7 @@ static size_t draw_cells(const wf_tile *t, int row, wf_row_time time, int set, s
             c->trace_x[n] = (double)c->x[n];
             c->trace_y[n] = (double)c->y[n];
             c->trace_f[n] = wf_window_fraction(t->s, at, time.late, (double)c->f[k]);
-            n += wf_within_reach(t->s, c->trace_y[n], at);
+            n += is_within_reach(t->s, c->trace_y[n], at);
         }
     }
     return n;
@@ -204,11 +214,11 @@ static bool trace_drawn(const wf_tile *t, double late, size_t count) {
     return true;
 }
 
-/* Field lines that a row's samples can reach: first <= l < end. */
-static void lines_of(const wf_sampling *s, int row, int *first, int *end) {
-    wf_gather_lines(&s->desc.gather, s->field, row, row + 1, first, end);
+/* Lines of a field that a row's samples can reach: first <= l < end. */
+static void lines_of(const wf_sampling *s, int64_t field, int row, int *first, int *end) {
+    wf_gather_lines(&s->desc.gather, field, row, row + 1, first, end);
     double reach = s->desc.gather.aperture.kind->reach_v;
-    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, s->field);
+    int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, field);
     /* Lines that only the row's very edge touches need no samples of it. */
     while (*first < *end && parity + *first * step + 0.5 + reach <= row) ++*first;
     while (*first < *end && parity + (*end - 1) * step + 0.5 - reach >= row + 1) --*end;
@@ -219,35 +229,39 @@ static double late_of(const wf_sampling *s, double line) {
 }
 
 /* An instant that goes down the picture is another one for each line. */
-static bool trace_instants(const wf_tile *t, int row, int first, int end) {
+static bool trace_instants(const wf_tile *t, int64_t field, int row, int *set) {
     int step = wf_raster_line_step(&t->s->raster);
-    int parity = wf_raster_parity(&t->s->raster, t->s->field);
+    int parity = wf_raster_parity(&t->s->raster, field), first, end;
+    lines_of(t->s, field, row, &first, &end);
     for (int l = first; l < end; l++) {
         double late = late_of(t->s, parity + l * step);
-        size_t count = draw_cells(t, row, (wf_row_time){late, late, late}, l - first, 0);
+        size_t count = draw_cells(t, row, (wf_row_time){late, late, late}, (*set)++, 0);
         if (!trace_drawn(t, late, count)) return false;
     }
     return true;
 }
 
-bool wf_find_row_time(const wf_sampling *s, int row, wf_row_time *time) {
-    int first, end, step = wf_raster_line_step(&s->raster);
-    int parity = wf_raster_parity(&s->raster, s->field);
-    *time = (wf_row_time){s->start, s->start + 1, 0};
-    if (s->periods) return true;
-    lines_of(s, row, &first, &end);
-    double low = late_of(s, parity + first * step),
-           high = late_of(s, parity + (end - 1) * step);
-    *time = (wf_row_time){s->start + low, s->start + s->tau + high, (low + high) / 2};
-    return first < end;
+static bool trace_instant_rows(const wf_tile *t, int first, int end) {
+    for (int row = first; row < end; row++)
+        for (int n = 0, set = 0; n < fields_of_unit(t->s); n++)
+            if (!trace_instants(t, t->s->field + n, row, &set)) return false;
+    return true;
 }
 
-static bool trace_instant_rows(const wf_tile *t, int first, int end) {
-    for (int row = first; row < end; row++) {
-        int line, line_end;
-        lines_of(t->s, row, &line, &line_end);
-        if (!trace_instants(t, row, line, line_end)) return false;
+bool wf_find_row_time(const wf_sampling *s, int row, wf_row_time *time) {
+    int step = wf_raster_line_step(&s->raster);
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    *time = (wf_row_time){s->start, s->start + 1, 0};
+    if (s->periods) return true;
+    for (int n = 0; n < fields_of_unit(s); n++) {
+        int first, end, parity = wf_raster_parity(&s->raster, s->field + n);
+        lines_of(s, s->field + n, row, &first, &end);
+        if (first >= end) continue;
+        low = fmin(low, late_of(s, parity + first * step));
+        high = fmax(high, late_of(s, parity + (end - 1) * step));
     }
+    if (low > high) return false;
+    *time = (wf_row_time){s->start + low, s->start + s->tau + high, (low + high) / 2};
     return true;
 }
 
@@ -310,15 +324,18 @@ static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bo
     return r->tile(r->user, &tile);
 }
 
+/* Adaptive tiles look at what is about them, too, which then has to be still as they are. */
 static bool trace_tile(wf_tile *t, int first, int end) {
-    const double x[2] = {t->x0, t->x1}, y[2] = {first, end};
+    int rows = adapts(t->s) ? wf_adaptive_rows_about(t->s) : 0, columns = rows > 0 ? ABOUT : 0;
+    const double x[2] = {t->x0 - columns, t->x1 + columns}, y[2] = {first - rows, end + rows};
     bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y);
+    t->timeless = still || (!(t->s->tau > 0) && !wf_tracer_own_widths(t->s->tracer));
     t->time = still ? STILL : t->s->unit;
     const float *all = t->receiver->tile ? background_of(t, first, end) : NULL;
     if (all) wf_trace_skip(t->c->trace);
     if (t->receiver->tile && !is_wanted(t, first, end, all, still)) return true;
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
-    if (t->s->desc.error > 0 && !t->s->instants) return wf_adaptive_tile(t, first, end, empty);
+    if (adapts(t->s)) return wf_adaptive_tile(t, first, end, empty);
     return t->s->instants ? trace_instant_rows(t, first, end) : trace_rows(t, first, end);
 }
 
@@ -334,7 +351,7 @@ bool wf_sampling_rows(const wf_sampling *s, wf_sampling_scratch *scratch, int fi
         for (int x = 0; x < width; x += TILE_WIDTH) {
             int last = row + TILE_HEIGHT < end ? row + TILE_HEIGHT : end;
             int right = x + TILE_WIDTH < width ? x + TILE_WIDTH : width;
-            wf_tile t = {s, scratch, x, right, receiver, s->unit};
+            wf_tile t = {.s = s, .c = scratch, .x0 = x, .x1 = right, .receiver = receiver};
             if (!trace_tile(&t, row, last)) return false;
         }
     return true;
