@@ -92,13 +92,16 @@ static size_t field_bytes(const wf_gathering *g) {
     return wf_gather_bytes(&g->desc, (raster->lines + 1) / wf_raster_line_step(raster));
 }
 
+/* What a patch takes beside its sums, about. */
+#define PATCH_BYTES 512
+
 static size_t kept_bytes(const wf_gathering *g) {
     const wf_sample_tiling *t = &g->source.tiling;
-    const double x[2] = {t->width_px, 2 * t->width_px}, y[2] = {t->rows, 2 * t->rows};
-    wf_patch p = wf_gather_patch(&g->desc, 0, x, y);
-    size_t line = wf_gather_bytes(&g->desc, p.end - p.first + 1);
-    size_t tile = line / (size_t)g->job->raster.width_px * (size_t)(p.right - p.left) +
-                  sizeof(wf_sample_tile);
+    const wf_aperture_kind *kind = g->desc.aperture.kind;
+    int lines = (t->rows + (int)(2 * kind->reach_v)) / wf_raster_line_step(&g->job->raster) + 2;
+    int across = t->width_px + (int)(2 * kind->reach_u) + 2;
+    size_t pixel = wf_gather_bytes(&g->desc, 1) / (size_t)g->job->raster.width_px;
+    size_t tile = (size_t)lines * (size_t)across * pixel + PATCH_BYTES;
     return 2 * field_bytes(g) + (size_t)t->count * 2 * (size_t)g->ways * tile;
 }
 

@@ -71,12 +71,21 @@ light{point={0, 6, 0}}
 add(box{min={-4, -0.2, -4}, max={4, 0, 4}}:material{texture=checker{{0.9, 0.9, 0.9}, {0.2, 0.4, 0.2}, size=0.5}})
 add(sphere{radius=0.4}:translate{-1, 5, 0}:velocity{10, 0, 0})
 EOF
-skipped=(shadow.lua "$scenes/one_mover.lua" "$scenes/still.lua" "$scenes/gallery.lua")
-[ -z "${WEFT_SANITIZE:-}" ] || skipped=(shadow.lua)
+# A ball before nothing, and one that is there only while it is within another.
+cat >sky.lua <<'EOF'
+camera{eye={0, 0, 9}, look_at={0, 0, 0}, fov=45}
+duration(0.4)
+add(sphere{radius=0.5}:translate{-4, 1, 0}:velocity{60, 0, 0}:material{unlit=true})
+add((sphere{radius=1}:translate{-3, -1, 0}:velocity{20, 0, 0} * sphere{radius=1}:translate{0, -1, 0})
+    :material{unlit=true})
+EOF
+skipped=(shadow.lua sky.lua "$scenes/one_mover.lua" "$scenes/still.lua" "$scenes/gallery.lua")
+[ -z "${WEFT_SANITIZE:-}" ] || skipped=(shadow.lua sky.lua)
 for how in '--aperture line' '--temporal-width 3/2 --shutter-position center' \
     '--temporal-width 3 --aperture diamond' '--raster 48x36@24psf --temporal-width 5/2' \
     '--raster 48x36@25p' '--scan-skew 1/2' '--raster 48x36@24psf --aperture line' \
-    '--temporal-width 0 --scan-skew 1 --error 0.01' '--error 0.01' '--error 0.01 --aperture box'; do
+    '--temporal-width 2 --aperture box' '--temporal-width 0 --scan-skew 1 --error 0.01' \
+    '--error 0.01' '--error 0.01 --aperture box'; do
     for scene in "${skipped[@]}"; do
         # shellcheck disable=SC2086
         set -- "$scene" "${small[@]}" --samples 4 --frames 0-5 $how --overwrite

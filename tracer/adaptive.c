@@ -173,7 +173,8 @@ static bool follows(const trend *t, const wf_adaptive_cell *c, int right, int do
 }
 
 /* Whether the edge through a neighbour, so many cells to the right and down, comes no nearer
- * than `past` when it goes on as it is. */
+ * than `past` when it goes on as it is. That rows of a skewed field are a little later than the
+ * one above is left out: some thousandth of a window. */
 static bool passes_by(const wf_adaptive_edge *edge, int right, int down, double past) {
     double from[3] = {-right, -down, 0}, low = 0, high = 0;
     if (!edge->found) return false;

@@ -457,8 +457,7 @@ static void fill(const wf_seeking *s, const wf_seeker *e) {
     for (wf_seen *v = e->first; v < e->end; v++) v->side = 0;
     wf_sum_side(e, 0, &sums);
     int lines = lines_for(s, FILLED, 2 * wf_adaptive_target(s->a));
-    *edge = (wf_adaptive_edge){
-        .found = true, .filled = true, .n = {0, 1, 0}, .d = 2, .lines = lines};
+    *edge = (wf_adaptive_edge){.found = true, .n = {0, 1, 0}, .d = 2, .lines = lines};
     wf_fit_color(&sums, sums.rgb, edge->rgb[0]);
 }
 

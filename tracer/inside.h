@@ -35,6 +35,8 @@ struct wf_tracer {
     wf_bounds *stack;                      /* [most_stack] */
     int *still, *moving, *endless;         /* parts: bounded that stand, that move; unbounded */
     int still_count, moving_count, endless_count;
+    int endless_still;        /* of the endless ones, which come first */
+    int *movers, mover_count; /* all parts that move, seen in the window or not */
     wf_tree still_tree, moving_tree;
 };
 

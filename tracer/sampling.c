@@ -27,7 +27,8 @@ static bool make_parts(wf_sampling *s) {
     s->tracer = wf_tracer_new(s->desc.scene, &view);
     int count = adapts(s) ? WF_QUARTERS * WF_MOST_EACH : s->desc.count;
     s->sampler = wf_sampler_new(s->desc.sampler, count, s->desc.seed);
-    return s->tracer && s->sampler;
+    s->tile_error = calloc((size_t)wf_sampling_tiling(s).count, sizeof *s->tile_error);
+    return s->tracer && s->sampler && s->tile_error;
 }
 
 wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
@@ -52,6 +53,7 @@ void wf_sampling_free(wf_sampling *s) {
     if (!s) return;
     wf_tracer_free(s->tracer);
     wf_sampler_free(s->sampler);
+    free(s->tile_error);
     free(s);
 }
 
@@ -300,6 +302,8 @@ static const float *background_of(const wf_tile *t, int first, int end) {
     const wf_aperture_kind *kind = t->s->desc.gather.aperture.kind;
     const double x[2] = {t->x0 - TILE_WIDTH, t->x1 + TILE_WIDTH};
     const double y[2] = {first - TILE_HEIGHT, end + TILE_HEIGHT};
+    /* Of windows that see several units nothing is known yet but of this one. */
+    if (t->s->periods && !wf_tracer_still(t->s->tracer)) return NULL;
     if (!t->s->desc.skip || 2 * kind->reach_u > TILE_WIDTH || 2 * kind->reach_v > TILE_HEIGHT)
         return NULL;
     bool nothing = t->s->nothing || wf_trace_nothing(t->s->tracer, t->c->trace, x, y);
@@ -310,10 +314,13 @@ static int tiles_across(const wf_sampling *s) {
     return (s->raster.width_px + TILE_WIDTH - 1) / TILE_WIDTH;
 }
 
+static int tile_index(const wf_tile *t, int first) {
+    return first / TILE_HEIGHT * tiles_across(t->s) + t->x0 / TILE_WIDTH;
+}
+
 static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bool still) {
     const wf_receiver *r = t->receiver;
-    int above = first / TILE_HEIGHT * tiles_across(t->s);
-    const wf_sample_tile tile = {.index = above + t->x0 / TILE_WIDTH,
+    const wf_sample_tile tile = {.index = tile_index(t, first),
                                  .left = t->x0,
                                  .right = t->x1,
                                  .first = first,
@@ -322,6 +329,23 @@ static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bo
                                  .still = still,
                                  .both = serves_both(t->s)};
     return r->tile(r->user, &tile);
+}
+
+/* What an adaptive tile leaves uncertain is noted, and counts again where the tile is used
+ * again. Nothing is uncertain of background. */
+static bool adapt(wf_tile *t, int first, int end, bool empty) {
+    wf_error_sum *sum = &t->c->error, before = *sum;
+    if (!wf_adaptive_tile(t, first, end, empty)) return false;
+    t->s->tile_error[tile_index(t, first)] =
+        (wf_error_sum){sum->square - before.square, sum->cells - before.cells};
+    return true;
+}
+
+static void recall_error(wf_tile *t, int first, int end, bool background) {
+    wf_error_sum *sum = &t->c->error, *tile = &t->s->tile_error[tile_index(t, first)];
+    if (background) *tile = (wf_error_sum){0, (double)((end - first) * (t->x1 - t->x0))};
+    sum->square += tile->square;
+    sum->cells += tile->cells;
 }
 
 /* Adaptive tiles look at what is about them, too, which then has to be still as they are. */
@@ -333,9 +357,12 @@ static bool trace_tile(wf_tile *t, int first, int end) {
     t->time = still ? STILL : t->s->unit;
     const float *all = t->receiver->tile ? background_of(t, first, end) : NULL;
     if (all) wf_trace_skip(t->c->trace);
-    if (t->receiver->tile && !is_wanted(t, first, end, all, still)) return true;
+    if (t->receiver->tile && !is_wanted(t, first, end, all, still)) {
+        if (adapts(t->s)) recall_error(t, first, end, all != NULL);
+        return true;
+    }
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
-    if (adapts(t->s)) return wf_adaptive_tile(t, first, end, empty);
+    if (adapts(t->s)) return adapt(t, first, end, empty);
     return t->s->instants ? trace_instant_rows(t, first, end) : trace_rows(t, first, end);
 }
 

@@ -33,7 +33,9 @@ struct wf_sampling {
     int64_t unit, field;
     bool still;   /* nothing seen moves in the unit */
     bool nothing; /* but background is seen */
-    double start; /* of the unit's window, field periods from the field's instant */
+    wf_error_sum
+        *tile_error; /* [tiles]: what was last found of each; of one thread at a time */
+    double start;    /* of the unit's window, field periods from the field's instant */
 };
 
 /* Memory that looking for edges keeps from tile to tile. */
@@ -112,7 +114,6 @@ typedef struct wf_adaptive_cell {
 /* One edge through a cell: where it is, and what is on its sides. */
 typedef struct wf_adaptive_edge {
     bool tried, followed, found;
-    bool filled;         /* there is none: all is side 0 */
     double n[3], d;      /* side 0: n . p < d, p the place in the cell, 0..1 each; x, y, time */
     double rgb[2][3][4]; /* side, channel: at p = 0, and how it grows with x, y, time */
     int lines;           /* that the cell is integrated over, at most WF_MOST_LINES */

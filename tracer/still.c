@@ -126,6 +126,7 @@ bool wf_trace_still(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
     wf_shaft shaft = wf_camera_shaft(t, x, y);
     if (wf_tree_meet(&t->moving_tree, t->part_bounds, &shaft, s->found) > 0) return false;
     wf_packet corner;
+    corner.late_s = 0;
     double xs[WF_PACKET], ys[WF_PACKET];
     for (int i = 0; i < WF_PACKET; i++) {
         xs[i] = x[i & 1], ys[i] = y[i >> 1 & 1];

@@ -118,9 +118,10 @@ static bool make_room(wf_tracer *t) {
     t->clear = calloc(parts, sizeof *t->clear);
     t->still = malloc(parts * sizeof *t->still);
     t->moving = malloc(parts * sizeof *t->moving);
+    t->movers = malloc(parts * sizeof *t->movers);
     t->endless = malloc(parts * sizeof *t->endless);
     return t->ops && t->solid_bounds && t->part_bounds && t->stack && t->lit && t->clear &&
-           t->still && t->moving && t->endless;
+           t->still && t->moving && t->movers && t->endless;
 }
 
 wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
@@ -159,6 +160,7 @@ void wf_tracer_free(wf_tracer *t) {
     free(t->stack);
     free(t->still);
     free(t->moving);
+    free(t->movers);
     free(t->endless);
     free(t);
 }
@@ -204,18 +206,29 @@ static void bound_part(wf_tracer *t, int index) {
     t->part_bounds[index] = t->stack[0];
 }
 
-/* Whether a part is bounded does not depend on time. */
-static void sort_parts(wf_tracer *t) {
+/* Parts that are nowhere in the window are in no list: an intersection of moving solids comes
+ * and goes. */
+static void sort_part(wf_tracer *t, int n) {
+    bound_part(t, n);
+    if (wf_bounds_empty(&t->part_bounds[n])) return;
+    if (!wf_bounds_finite(&t->part_bounds[n]))
+        t->endless[t->endless_count++] = n;
+    else if (t->parts[n].moves)
+        t->moving[t->moving_count++] = n;
+    else
+        t->still[t->still_count++] = n;
+}
+
+/* What stands still, once and for all. */
+static bool sort_still_parts(wf_tracer *t) {
     for (int n = 0; n < t->part_count; n++) {
-        bound_part(t, n);
-        if (wf_bounds_empty(&t->part_bounds[n])) continue;
-        if (!wf_bounds_finite(&t->part_bounds[n]))
-            t->endless[t->endless_count++] = n;
-        else if (t->parts[n].moves)
-            t->moving[t->moving_count++] = n;
+        if (t->parts[n].moves)
+            t->movers[t->mover_count++] = n;
         else
-            t->still[t->still_count++] = n;
+            sort_part(t, n);
     }
+    t->endless_still = t->endless_count;
+    return wf_tree_new(t->part_bounds, t->still, t->still_count, &t->still_tree);
 }
 
 bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
@@ -223,16 +236,11 @@ bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
     t->skip = skip;
     for (int n = 0; n < t->scene->op_count; n++)
         t->ops[n] = wf_op_ready(t->scene, n, window->base_s);
-    if (!t->looked) {
-        sort_parts(t);
-        if (!wf_tree_new(t->part_bounds, t->still, t->still_count, &t->still_tree))
-            return false;
-        t->looked = true;
-    } else {
-        for (int n = 0; n < t->moving_count; n++) bound_part(t, t->moving[n]);
-        for (int n = 0; n < t->endless_count; n++)
-            if (t->parts[t->endless[n]].moves) bound_part(t, t->endless[n]);
-    }
+    if (!t->looked && !sort_still_parts(t)) return false;
+    t->looked = true;
+    t->moving_count = 0;
+    t->endless_count = t->endless_still;
+    for (int n = 0; n < t->mover_count; n++) sort_part(t, t->movers[n]);
     wf_tree_free(&t->moving_tree);
     return wf_tree_new(t->part_bounds, t->moving, t->moving_count, &t->moving_tree);
 }
