@@ -62,7 +62,10 @@ int main(int argc, char **argv) {
     wf_image is = load(argv[2]);
     double bound = argc > 3 ? atof(argv[3]) : HUGE_VAL, square = 0;
     size_t pixels = (size_t)is.width_px * (size_t)is.height_px, within = 0, known = 0;
-    if (count < 1 || truth[0].width_px != is.width_px || truth[0].height_px != is.height_px) {
+    bool alike = count > 0;
+    for (int n = 0; n < count; n++)
+        alike &= truth[n].width_px == is.width_px && truth[n].height_px == is.height_px;
+    if (!alike) {
         fprintf(stderr, "bench-compare: %s and %s differ in size\n", argv[1], argv[2]);
         return 1;
     }
