@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <cmocka.h>
 
 #include "color/encoder.h"
 #include "color/line.h"
 #include "color/space.h"
+#include "convert/frames.h"
 #include "filters/half.h"
 #include "filters/resampler.h"
 
@@ -27,12 +27,6 @@
 static uint32_t draw(uint32_t *state) {
     *state = *state * 1664525u + 1013904223u;
     return *state >> 8;
-}
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* ---- One field ---- */
@@ -107,9 +101,9 @@ static double slower(const wf_resampler *rs, const void *odd, const void *plain,
     double least[2] = {1e9, 1e9};
     for (int round = 0; round < ROUNDS; round++)
         for (int which = 0; which < 2; which++) {
-            double start = now_s();
+            double start = wf_now_s();
             make_field(rs, which ? plain : odd, half, out);
-            least[which] = fmin(least[which], now_s() - start);
+            least[which] = fmin(least[which], wf_now_s() - start);
         }
     return least[0] / least[1];
 }

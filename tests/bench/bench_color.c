@@ -3,21 +3,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "color/encoder.h"
 #include "color/line.h"
 #include "color/ocio.h"
 #include "color/space.h"
+#include "convert/frames.h"
 #include "convert/module.h"
 
 enum { WIDTH = 1920, LINES = 540, RUNS = 9 };
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Smooth in places and noisy in others, a little of it out of range. */
 static void fill(float *rgb) {
@@ -39,12 +33,12 @@ static void convert(const field *f, const wf_transform *t, const wf_encoding *e,
         float *rgb[3] = {f->line, f->line + WIDTH, f->line + 2 * WIDTH};
         uint16_t *code[3] = {f->code, f->code + WIDTH, f->code + 2 * WIDTH};
         memcpy(f->line, f->light + (size_t)l * 3 * WIDTH, 3 * WIDTH * sizeof(float));
-        double start = now_s();
+        double start = wf_now_s();
         t->apply(t->self, rgb[0], rgb[1], rgb[2], WIDTH);
-        double middle = now_s();
+        double middle = wf_now_s();
         wf_encode_line(e, rgb, f->scratch, code);
         times[0] += middle - start;
-        times[1] += now_s() - middle;
+        times[1] += wf_now_s() - middle;
     }
 }
 
@@ -93,10 +87,10 @@ static void measure_level(const wf_line_ops *ops, const field *f, const wf_curve
         double spent = 0;
         for (int l = 0; l < LINES; l++) {
             memcpy(f->line, f->light + (size_t)l * 3 * WIDTH, 3 * WIDTH * sizeof(float));
-            double start = now_s();
+            double start = wf_now_s();
             for (int c = 0; c < 3; c++)
                 ops->curve[curve->kind](curve, f->line + c * WIDTH, WIDTH);
-            spent += now_s() - start;
+            spent += wf_now_s() - start;
         }
         if (spent < best) best = spent;
     }

@@ -6,19 +6,14 @@
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include "convert/frames.h"
 
 typedef struct buffers {
     struct libdeflate_decompressor *inflate;
     unsigned char *packed, *inflated, *out;
     size_t room;
 } buffers;
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void unpredict(unsigned char *out, unsigned char *in, size_t count) {
     size_t evens = (count + 1) / 2;
@@ -66,7 +61,7 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: bench-floor THREADS FILE..\n");
         return 2;
     }
-    double start = now_s();
+    double start = wf_now_s();
 #pragma omp parallel num_threads(threads) reduction(+ : failed)
     {
         buffers b = {.inflate = libdeflate_alloc_decompressor()};
@@ -75,7 +70,7 @@ int main(int argc, char **argv) {
         free(b.packed), free(b.inflated), free(b.out);
         if (b.inflate) libdeflate_free_decompressor(b.inflate);
     }
-    printf("%.4f\n", now_s() - start);
+    printf("%.4f\n", wf_now_s() - start);
     if (failed) fprintf(stderr, "bench-floor: %d files failed\n", failed);
     return failed != 0;
 }

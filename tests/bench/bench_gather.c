@@ -2,17 +2,11 @@
  * as a renderer draws them. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "convert/frames.h"
 #include "filters/samples.h"
 
 #define PER_PIXEL 64
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 typedef struct block {
     float *x, *y, *t, *rgb[3];
@@ -50,9 +44,9 @@ static double run(const wf_gather_desc *d, block *b) {
                               .y = b->y,
                               .t = b->t,
                               .rgb = {b->rgb[0], b->rgb[1], b->rgb[2]}};
-        double start = now_s();
+        double start = wf_now_s();
         wf_gather_add(g, &s);
-        spent += now_s() - start;
+        spent += wf_now_s() - start;
         samples += (double)b->count;
     }
     wf_gather_free(g);

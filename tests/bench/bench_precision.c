@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "convert/frames.h"
 #include "filters/half.h"
 #include "filters/resampler.h"
 #include "tests/reference.h"
@@ -30,12 +30,6 @@ typedef struct field_bench {
     wf_scratch *scratch;
     wf_field *field;
 } field_bench;
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double drawn(unsigned *seed) {
     *seed = *seed * 1664525u + 1013904223u;
@@ -161,10 +155,10 @@ int main(int argc, char **argv) {
     for (int run = 0; run < RUNS; run++) {
         b.field = wf_field_new(b.rs, 0);
         if (!b.field) die("no memory");
-        double start = now_s();
+        double start = wf_now_s();
         make_field(&b);
         finish_lines(&b, out);
-        least = fmin(least, now_s() - start);
+        least = fmin(least, wf_now_s() - start);
         wf_field_free(b.field);
     }
     double samples = 3.0 * SUBFRAMES * b.cells_x * b.cells_y;

@@ -2,17 +2,11 @@
  * One thread; pictures of 1440x972 to 525i, eight a field. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "convert/frames.h"
 #include "filters/resampler.h"
 
 enum { CELLS_X = 1440, CELLS_Y = 972, SUBFRAMES = 32, FIELDS = 4 };
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void add_field(const wf_resampler *rs, wf_field *field, wf_scratch *scratch,
                       const uint16_t *pixel) {
@@ -65,11 +59,11 @@ static void measure(const char *name) {
     double add_s = 1e9, finish_s = 1e9;
     for (int run = 0; run < 5; run++) {
         wf_field *field = wf_field_new(rs, 1);
-        double start = now_s();
+        double start = wf_now_s();
         add_field(rs, field, scratch, pixel);
-        double added = now_s();
+        double added = wf_now_s();
         for (int l = 0; l < raster.lines / 2; l++) wf_field_line(field, l, scratch, rgb);
-        double finished = now_s();
+        double finished = wf_now_s();
         if (added - start < add_s) add_s = added - start;
         if (finished - added < finish_s) finish_s = finished - added;
         wf_field_free(field);
