@@ -10,7 +10,9 @@
  * 3.375/13.5, 64.3 dB down from 4.0/13.5 on; the template asks for 0.05 dB and 55 dB.
  * tests/test_chroma.c computes them again. */
 static const wf_chroma_filter filters[] = {
-    [WF_CHROMA_BT601] = {"bt601", 10, true,
+    [WF_CHROMA_BT601] = {"bt601",
+                         10,
+                         true,
                          {OF_65536(20731), OF_65536(-6567), OF_65536(3559), OF_65536(-2170),
                           OF_65536(1361), OF_65536(-836), OF_65536(496), OF_65536(-268),
                           OF_65536(134), OF_65536(-56)}},
@@ -54,4 +56,19 @@ void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t widt
         ops->half_band(line, even, odd, filter->pair, filter->pairs, count);
     else
         for (size_t i = 0; i < count; i++) line[i] = 0.5f * even[i] + filter->pair[0] * odd[i];
+}
+
+void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
+                           float *line) {
+    ptrdiff_t count = (ptrdiff_t)(width_px / 2);
+    for (ptrdiff_t i = 0; i < count; i++) {
+        float sum = 0;
+        for (ptrdiff_t j = 0; j < (ptrdiff_t)filter->pairs; j++) {
+            size_t before = reflected(2 * (i - j), width_px);
+            size_t after = reflected(2 * (i + 1 + j), width_px);
+            sum += filter->pair[j] * (half[before / 2] + half[after / 2]);
+        }
+        line[2 * i] = half[i];
+        line[2 * i + 1] = 2 * sum;
+    }
 }

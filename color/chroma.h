@@ -26,4 +26,10 @@ size_t wf_chroma_scratch(size_t width_px);
 void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t width_px,
                         float *scratch);
 
+/* The other way: a line of width_px samples from its width_px / 2 even ones, by the same taps
+ * (a "standard upsampler"); even samples stay as they are. Outside, samples are reflected as
+ * above. */
+void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
+                           float *line);
+
 #endif

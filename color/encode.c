@@ -45,7 +45,13 @@ static wf_quantizer quantizer_of(const wf_encoding *e, bool chroma) {
     return narrow_quantizer(e, chroma ? narrow_chroma : narrow_luma);
 }
 
-static wf_ycbcr ycbcr_of(wf_luma luma) {
+void wf_code_scale(const wf_encoding *encoding, int plane, double *zero, double *unit) {
+    wf_quantizer q = quantizer_of(encoding, encoding->ycbcr && plane > 0);
+    *zero = q.offset;
+    *unit = q.scale;
+}
+
+wf_ycbcr wf_ycbcr_of(wf_luma luma) {
     double kr = luma_weights[luma].kr, kb = luma_weights[luma].kb;
     return (wf_ycbcr){.kr = (float)kr,
                       .kb = (float)kb,
@@ -67,7 +73,7 @@ void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scr
     const wf_chroma_filter *filter = filter_of(encoding);
     size_t width = (size_t)encoding->width_px;
     if (encoding->ycbcr) {
-        wf_ycbcr weights = ycbcr_of(encoding->luma);
+        wf_ycbcr weights = wf_ycbcr_of(encoding->luma);
         ops->ycbcr(&weights, rgb[0], rgb[1], rgb[2], width);
     }
     for (int c = 0; c < 3; c++) {

@@ -40,6 +40,10 @@ typedef struct wf_encoding {
     int width_px;
 } wf_encoding;
 
+/* What codes of plane `plane` mean: the signal is (code - zero) / unit, from 0 to 1, chroma from
+ * -1/2 to 1/2. Of the encoding only ycbcr, full_range and bits are looked at. */
+void wf_code_scale(const wf_encoding *encoding, int plane, double *zero, double *unit);
+
 /* Samples of float scratch that wf_encode_line needs. */
 size_t wf_encode_scratch(const wf_encoding *encoding);
 

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "color/curve.h"
+#include "color/encoder.h"
 
 /* Light beyond this, and R'G'B' beyond +-WF_MOST_SIGNAL, is cut off: every code is saturated
  * there, and no difference of two such samples overflows. */
@@ -24,6 +25,8 @@ typedef struct wf_ycbcr {
     float kr, kb;
     float cb_scale, cr_scale; /* 1 / (2 (1 - Kb)), 1 / (2 (1 - Kr)) */
 } wf_ycbcr;
+
+wf_ycbcr wf_ycbcr_of(wf_luma luma);
 
 /* Signal to code: scale * signal + offset, rounded, within low .. high (whole numbers >= 0). */
 typedef struct wf_quantizer {

@@ -53,8 +53,10 @@ static bool find_module(const char *name, char path[PATH_MAX]) {
 static const char *package_of(const char *name) {
     static const struct {
         const char *name, *package;
-    } packages[] = {
-        {"oiio", "libopenimageio2.4"}, {"ocio", "libopencolorio2.1"}, {"plot", "libcairo2"}};
+    } packages[] = {{"oiio", "libopenimageio2.4"},
+                    {"ocio", "libopencolorio2.1"},
+                    {"plot", "libcairo2"},
+                    {"libav", "libavformat59 (and libavcodec59)"}};
     for (size_t i = 0; i < sizeof packages / sizeof *packages; i++)
         if (!strcmp(packages[i].name, name)) return packages[i].package;
     return "it was linked with";
@@ -63,6 +65,11 @@ static const char *package_of(const char *name) {
 static const char *loader_says(void) {
     const char *says = dlerror();
     return says ? says : "the loader does not say why";
+}
+
+bool wf_module_built(const char *name) {
+    char path[PATH_MAX];
+    return find_module(name, path);
 }
 
 weft_status wf_module_symbol(const char *name, const char *symbol, void **symbol_out,

@@ -10,4 +10,7 @@
 weft_status wf_module_symbol(const char *name, const char *symbol, void **symbol_out,
                              weft_error *err);
 
+/* Whether the module is there: some are left out where their library was not found. */
+bool wf_module_built(const char *name);
+
 #endif

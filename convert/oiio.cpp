@@ -195,6 +195,15 @@ void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) 
              channels.c_str(), spec.format.is_floating_point() ? "float" : "uint", bits);
 }
 
+// weft:raster where the format has room for it; else the words that weft's own writer begins the
+// description with.
+void read_raster(const ImageSpec &spec, wf_image_info *info) {
+    const std::string words = spec.get_string_attribute("ImageDescription");
+    const std::string name =
+        spec.get_string_attribute("weft:raster", words.substr(0, words.find(", ")));
+    snprintf(info->raster, sizeof info->raster, "%s", name.c_str());
+}
+
 void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
     *info = wf_image_info{};
     info->display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
@@ -208,6 +217,7 @@ void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info)
     info->whole = true;
     info->band_lines = spec.height;
     read_timecode(spec, info);
+    read_raster(spec, info);
     describe(in, spec, info);
 }
 

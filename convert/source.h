@@ -31,6 +31,7 @@ typedef struct wf_image_info {
                           data.y0. Reading whole bands reads nothing twice. */
     bool whole;        /* the reader holds the whole picture (not chunked): open few at once */
     char timecode[16]; /* "" if none */
+    char raster[64];   /* weft:raster; "" if none */
     char format[96];   /* for people: "OpenEXR scanline, ZIP, R G B half" */
 } wf_image_info;
 

@@ -281,6 +281,11 @@ static void read_timecode(wf_subframe *s) {
              minutes % 100, seconds % 100, t & 0x40 ? ';' : ':', frames % 100);
 }
 
+static void read_raster(wf_subframe *s) {
+    const exr_attribute_t *text = attribute(s, "weft:raster", EXR_ATTR_STRING);
+    if (text) snprintf(s->info.raster, sizeof s->info.raster, "%s", text->string->str);
+}
+
 static const char *compression_name(exr_compression_t compression) {
     static const char *const name[] = {"no compression", "RLE", "ZIPS", "ZIP",  "PIZ",
                                        "PXR24",          "B44", "B44A", "DWAA", "DWAB"};
@@ -311,6 +316,7 @@ static void read_attributes(wf_subframe *s) {
     s->info.has_alpha = s->layout.channels == 4;
     s->info.band_lines = s->layout.chunk_lines;
     read_timecode(s);
+    read_raster(s);
     describe(s);
 }
 

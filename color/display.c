@@ -1,0 +1,51 @@
+#include "color/display.h"
+
+#include <math.h>
+
+#include "color/line.h"
+
+#define GAMMA 2.4 /* BT.1886 */
+
+void wf_ycbcr_of_rgb(wf_luma luma, float *r_to_y, float *g_to_cb, float *b_to_cr,
+                     size_t count) {
+    wf_ycbcr weights = wf_ycbcr_of(luma);
+    wf_line_ops_best()->ycbcr(&weights, r_to_y, g_to_cb, b_to_cr, count);
+}
+
+void wf_rgb_of_ycbcr(wf_luma luma, float *y_to_r, float *cb_to_g, float *cr_to_b,
+                     size_t count) {
+    wf_ycbcr w = wf_ycbcr_of(luma);
+    float kg = 1 - w.kr - w.kb;
+    for (size_t i = 0; i < count; i++) {
+        float y = y_to_r[i], r = y + cr_to_b[i] / w.cr_scale, b = y + cb_to_g[i] / w.cb_scale;
+        y_to_r[i] = r;
+        cb_to_g[i] = (y - w.kr * r - w.kb * b) / kg;
+        cr_to_b[i] = b;
+    }
+}
+
+void wf_display_init(wf_display *display, wf_primaries primaries) {
+    double xyz[3][3];
+    wf_rgb_to_xyz(primaries, xyz);
+    for (int c = 0; c < 3; c++) display->weight[c] = (float)xyz[1][c];
+    for (int i = 0; i < WF_DISPLAY_STEPS + 2; i++)
+        display->light[i] = (float)pow((double)WF_DISPLAY_END * i / WF_DISPLAY_STEPS, GAMMA);
+}
+
+static float light_of(const wf_display *d, float signal) {
+    if (!(signal > 0)) return 0;
+    if (signal >= WF_DISPLAY_END) return powf(fminf(signal, WF_MOST_SIGNAL), (float)GAMMA);
+    float at = signal * (WF_DISPLAY_STEPS / WF_DISPLAY_END);
+    int step = (int)at;
+    float rest = at - (float)step;
+    return d->light[step] + rest * (d->light[step + 1] - d->light[step]);
+}
+
+void wf_display_luminance(const wf_display *display, const float *const rgb[3], float *light,
+                          size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        float sum = 0;
+        for (int c = 0; c < 3; c++) sum += display->weight[c] * light_of(display, rgb[c][i]);
+        light[i] = sum;
+    }
+}

@@ -1,0 +1,197 @@
+#include "convert/video.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "convert/names.h"
+#include "convert/sequence.h"
+#include "convert/subframe.h"
+#include "convert/video_kinds.h"
+#include "convert/y4m.h"
+
+weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a frame", video->path);
+}
+
+void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code) {
+    const wf_video_info *info = &video->info;
+    const wf_encoding encoding = {
+        .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
+    double zero, unit;
+    wf_code_scale(&encoding, plane, &zero, &unit);
+    int width = video->frame.width_px[plane];
+    float *to = video->frame.plane[plane] + (size_t)line * (size_t)width;
+    for (int x = 0; x < width; x++) to[x] = (float)((code[x] - zero) / unit);
+}
+
+/* ---- Which raster it is ---- */
+
+static bool fits(const wf_raster *r, const wf_video_info *info, const wf_video_label *label) {
+    bool known = label->scan_known, interlaced = r->scan == WF_INTERLACED;
+    return r->width_px == info->width_px && r->lines == info->lines &&
+           (!wf_ratio_given(label->rate) || wf_ratio_equal(r->frame_rate, label->rate)) &&
+           (!known || interlaced == label->interlaced) &&
+           (!known || !interlaced || r->top_first == label->top_first);
+}
+
+/* Segmented frames of the standard definition rasters have no name of their own. */
+static bool fits_segmented(const wf_raster *r, const wf_video_info *info,
+                           const wf_video_label *label) {
+    wf_video_label as_fields = *label;
+    as_fields.scan_known = false;
+    return label->scan_known && !label->interlaced && r->scan == WF_INTERLACED &&
+           fits(r, info, &as_fields);
+}
+
+static void make_raster(wf_video_info *info, const wf_video_label *label) {
+    wf_rational rate = wf_ratio_given(label->rate) ? label->rate : wf_ratio(25, 1);
+    bool given = wf_ratio_given(label->aspect) && label->aspect.num > 0;
+    info->raster = (wf_raster){.width_px = info->width_px,
+                               .lines = info->lines,
+                               .frame_rate = rate,
+                               .scan = label->scan_known && !label->interlaced ? WF_PROGRESSIVE
+                                                                               : WF_INTERLACED,
+                               .top_first = label->scan_known ? label->top_first : true,
+                               .pixel_aspect = given ? label->aspect : wf_ratio(1, 1),
+                               .matrix = WF_709};
+    snprintf(info->raster.name, sizeof info->raster.name, "%dx%d@%" PRId64 "/%" PRId64 "%s",
+             info->width_px, info->lines, rate.num, rate.den,
+             info->raster.scan == WF_PROGRESSIVE ? "p" : "i");
+}
+
+static void find_raster(wf_video_info *info, const wf_video_label *label) {
+    char why[256];
+    wf_raster stated;
+    if (label->raster && *label->raster &&
+        wf_raster_parse(label->raster, &stated, why, sizeof why) &&
+        fits(&stated, info, label)) {
+        info->raster = stated;
+        info->scan_known = true;
+        return;
+    }
+    const wf_raster *r;
+    for (size_t i = 0; (r = wf_raster_at(i)); i++)
+        if (fits(r, info, label) || fits_segmented(r, info, label)) {
+            info->raster = *r;
+            if (!fits(r, info, label)) info->raster.scan = WF_SEGMENTED;
+            return;
+        }
+    make_raster(info, label);
+}
+
+static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_error *err) {
+    const wf_raster *given = v->options.raster;
+    wf_video_info *info = &v->info;
+    info->scan_known = label->scan_known || given;
+    if (!given) {
+        find_raster(info, label);
+        return WEFT_OK;
+    }
+    info->raster = *given;
+    if (given->width_px == info->width_px && given->lines == info->lines) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: its pictures are %dx%d, and --raster %s is %dx%d; leave --raster out, "
+                   "or give one of that size",
+                   v->path, info->width_px, info->lines, given->name, given->width_px,
+                   given->lines);
+}
+
+/* ---- Opening ---- */
+
+static bool ends_in(const char *path, const char *ending) {
+    const char *dot = strrchr(path, '.');
+    return dot && !strcasecmp(dot, ending);
+}
+
+static bool is_y4m(const char *path) {
+    char head[sizeof WF_Y4M_MAGIC] = "";
+    FILE *file = fopen(path, "rb");
+    size_t got = file ? fread(head, 1, sizeof head - 1, file) : 0;
+    if (file) fclose(file);
+    return got == sizeof head - 1 && !strcmp(head, WF_Y4M_MAGIC);
+}
+
+static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_error *err) {
+    struct stat about;
+    bool there = !stat(path, &about);
+    *kind = &wf_video_libav;
+    if (!strcmp(path, "-"))
+        *kind = &wf_video_y4m;
+    else if (there ? S_ISDIR(about.st_mode) : wf_sequence_is_pattern(path))
+        *kind = &wf_video_pictures;
+    else if (!there)
+        return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
+    else if (ends_in(path, ".v210") || ends_in(path, ".uyvy"))
+        *kind = &wf_video_raw;
+    else if (is_y4m(path))
+        *kind = &wf_video_y4m;
+    else if (wf_is_exr(path) || wf_name_is_picture(wf_base_name(path)))
+        *kind = &wf_video_pictures;
+    return WEFT_OK;
+}
+
+static weft_status make_planes(wf_video *v, weft_error *err) {
+    const wf_video_info *info = &v->info;
+    for (int p = 0; p < 3; p++) {
+        int across = p ? info->across : 1, down = p ? info->down : 1;
+        int width = (info->width_px + across - 1) / across;
+        int lines = (info->lines + down - 1) / down;
+        v->frame.width_px[p] = width;
+        v->frame.lines[p] = lines;
+        v->frame.plane[p] = calloc((size_t)width * (size_t)lines, sizeof(float));
+        if (!v->frame.plane[p]) return wf_video_no_memory(v, err);
+    }
+    return WEFT_OK;
+}
+
+weft_status wf_video_open(const char *path, const wf_video_options *options, wf_video **out,
+                          weft_error *err) {
+    const wf_video_kind *kind;
+    weft_status status = find_kind(path, &kind, err);
+    if (status) return status;
+    wf_video *v = calloc(1, sizeof *v);
+    if (v) v->path = strdup(path);
+    if (!v || !v->path) {
+        free(v);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    }
+    v->kind = kind;
+    v->options = *options;
+    v->info = (wf_video_info){.across = 1, .down = 1, .frames = -1};
+    v->frame.index = -1;
+    wf_video_label label = {0};
+    status = kind->open(v, &label, err);
+    if (!status) status = settle_raster(v, &label, err);
+    if (!status) status = make_planes(v, err);
+    if (status)
+        wf_video_close(v);
+    else
+        *out = v;
+    return status;
+}
+
+const wf_video_info *wf_video_info_of(const wf_video *video) {
+    return &video->info;
+}
+
+weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_error *err) {
+    bool more = false;
+    *frame = NULL;
+    video->frame.index++;
+    weft_status status = video->kind->next(video, &more, err);
+    if (!status && more) *frame = &video->frame;
+    return status;
+}
+
+void wf_video_close(wf_video *video) {
+    if (!video) return;
+    video->kind->close(video);
+    for (int p = 0; p < 3; p++) free(video->frame.plane[p]);
+    free(video->path);
+    free(video);
+}
