@@ -39,6 +39,10 @@ typedef enum wf_tv_decoder {
     WF_DECODER_COMB3
 } wf_tv_decoder;
 
+/* U of Cb and V of Cr, both from -1/2 to 1/2, by BT.601's weights. */
+#define WF_U_OF_CB (2 * (1 - 0.114) * 0.492111)
+#define WF_V_OF_CR (2 * (1 - 0.299) * 0.877283)
+
 /* What a system's numbers are; static storage. */
 typedef struct wf_tv_standard {
     const char *name;    /* "ntsc" */

@@ -24,10 +24,6 @@ void wf_fir_apply(const wf_fir *fir, float *restrict out, const float *restrict 
 /* out[0 .. width + 2 margin), the line reflected about its first and last samples. */
 void wf_fir_reflect(float *restrict out, const float *restrict line, int width, int margin);
 
-/* U of Cb, V of Cr. */
-#define WF_U_OF_CB (2 * (1 - 0.114) * 0.492111)
-#define WF_V_OF_CR (2 * (1 - 0.299) * 0.877283)
-
 struct wf_composite {
     wf_tv tv;
     const wf_tv_standard *standard;

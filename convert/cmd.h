@@ -3,13 +3,21 @@
 
 #include "convert/weft.h"
 
+/* The values of an option that may be given several times, borrowed from argv. */
+#define WF_CMD_MOST_VALUES 32
+typedef struct wf_cmd_list {
+    char *value[WF_CMD_MOST_VALUES];
+    size_t count;
+} wf_cmd_list;
+
 /* An option that a command has of its own, beside those of a job. Given, it is stored in the
- * command's state: a flag as a bool, anything else as a const char * that borrows from argv.
- * The last of several wins. */
+ * command's state: a flag as a bool, one that repeats in a wf_cmd_list, anything else as a
+ * const char * that borrows from argv, of which the last of several wins. */
 typedef struct wf_cmd_option {
     weft_option shown;
     char letter; /* "-o"; 0: none */
     size_t offset;
+    bool repeats;
 } wf_cmd_option;
 
 /* What a command takes and says of itself: the parser and the help are made of it. */
@@ -26,8 +34,8 @@ typedef struct wf_cmd {
     weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
 } wf_cmd;
 
-extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_filters, wf_cmd_rasters,
-    wf_cmd_info;
+extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure, wf_cmd_filters,
+    wf_cmd_rasters, wf_cmd_info;
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
  * job. Operands are moved to the front of argv; *operand_count says how many. --name value,

@@ -76,14 +76,24 @@ typedef struct reading {
     weft_job *job;
 } reading;
 
-static weft_status store(const reading *r, const char *name, size_t length, const char *value,
+static weft_status append(wf_cmd_list *list, const char *name, char *value, weft_error *err) {
+    if (list->count == WF_CMD_MOST_VALUES)
+        return wf_fail(err, WEFT_USAGE, "--%s is given more than %d times", name,
+                       WF_CMD_MOST_VALUES);
+    list->value[list->count++] = value;
+    return WEFT_OK;
+}
+
+static weft_status store(const reading *r, const char *name, size_t length, char *value,
                          weft_error *err) {
     const wf_cmd_option *own = own_option(r->cmd, name, length);
     char word[64];
     if (own) {
         char *place = (char *)r->state + own->offset;
+        if (own->repeats)
+            return append((wf_cmd_list *)(void *)place, own->shown.name, value, err);
         if (own->shown.takes)
-            *(const char **)(void *)place = value;
+            *(char **)(void *)place = value;
         else
             *(bool *)place = true;
         return WEFT_OK;
@@ -99,8 +109,8 @@ static bool looks_like_option(const wf_cmd *cmd, const char *argument) {
 }
 
 /* The value of option: after '=', or the next argument. */
-static weft_status take_value(reading *r, const weft_option *option, const char *attached,
-                              const char **value, weft_error *err) {
+static weft_status take_value(reading *r, const weft_option *option, char *attached,
+                              char **value, weft_error *err) {
     *value = attached;
     if (!option->takes)
         return !attached
@@ -115,7 +125,7 @@ static weft_status take_value(reading *r, const weft_option *option, const char 
 }
 
 static weft_status read_long(reading *r, weft_error *err) {
-    const char *name = r->argv[r->at] + 2, *equals = strchr(name, '='), *value;
+    char *name = r->argv[r->at] + 2, *equals = strchr(name, '='), *value;
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
     weft_option option;
     if (!find_option(r->cmd, name, length, &option)) {
@@ -127,7 +137,7 @@ static weft_status read_long(reading *r, weft_error *err) {
 }
 
 static weft_status read_short(reading *r, weft_error *err) {
-    const char *letter = r->argv[r->at] + 1, *value;
+    char *letter = r->argv[r->at] + 1, *value;
     const wf_cmd_option *own = letter_option(r->cmd, *letter);
     if (!own) return unknown_option(r->cmd, "-", letter, err);
     weft_status status = take_value(r, &own->shown, letter[1] ? letter + 1 : NULL, &value, err);

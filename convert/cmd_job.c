@@ -150,16 +150,16 @@ static const wf_cmd_option options[] = {
       "- is "
       "Y4M on standard output.",
       output},
-     'o',
-     offsetof(job_state, output)},
+     .letter = 'o',
+     .offset = offsetof(job_state, output)},
     {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
       "How to show progress, on standard error.", output},
-     0,
-     offsetof(job_state, progress)},
-    {{"quiet", NULL, NULL, "Say nothing but errors.", output}, 'q', offsetof(job_state, quiet)},
+     .offset = offsetof(job_state, progress)},
+    {{"quiet", NULL, NULL, "Say nothing but errors.", output},
+     .letter = 'q',
+     .offset = offsetof(job_state, quiet)},
     {{"report", "FILE", NULL, "Write what was done as JSON, also when it failed.", output},
-     0,
-     offsetof(job_state, report)},
+     .offset = offsetof(job_state, report)},
 };
 
 #define OPTIONS .options = options, .option_count = sizeof options / sizeof *options

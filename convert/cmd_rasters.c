@@ -65,7 +65,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
 }
 
 static const wf_cmd_option options[] = {
-    {{"json", NULL, NULL, "Print JSON.", "Options"}, 0, offsetof(rasters_state, json)},
+    {{"json", NULL, NULL, "Print JSON.", "Options"}, .offset = offsetof(rasters_state, json)},
 };
 
 static const char *const no_job_options[] = {NULL};

@@ -1,9 +1,11 @@
 /* The plot module: frequency responses drawn with Cairo. */
-#include "convert/plot.h"
 
 #include <cairo.h>
 #include <math.h>
 #include <stdio.h>
+
+#include "convert/plot.h"
+#include "convert/plot_write.h"
 
 WEFT_API wf_plot_png_fn wf_plot_png;
 
@@ -254,18 +256,26 @@ static cairo_status_t receive(void *closure, const unsigned char *data, unsigned
     return r->status ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
-weft_status wf_plot_png(const wf_plot *plot, wf_plot_write_fn *write, void *to,
-                        weft_error *err) {
+weft_status wf_plot_write_png(cairo_surface_t *surface, wf_plot_write_fn *write, void *to,
+                              weft_error *err) {
     receiver r = {.write = write, .to = to, .err = err};
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
-    cairo_t *cr = cairo_create(surface);
-    draw(cr, plot);
-    cairo_status_t status = cairo_status(cr);
-    if (!status) status = cairo_surface_write_to_png_stream(surface, receive, &r);
-    cairo_destroy(cr);
-    cairo_surface_destroy(surface);
+    cairo_status_t status = cairo_surface_write_to_png_stream(surface, receive, &r);
     if (r.status) return r.status;
     if (status)
         return wf_fail(err, WEFT_FAILED, "the plot: %s", cairo_status_to_string(status));
     return WEFT_OK;
+}
+
+weft_status wf_plot_png(const wf_plot *plot, wf_plot_write_fn *write, void *to,
+                        weft_error *err) {
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
+    cairo_t *cr = cairo_create(surface);
+    draw(cr, plot);
+    cairo_status_t drawn = cairo_status(cr);
+    weft_status status =
+        drawn ? wf_fail(err, WEFT_FAILED, "the plot: %s", cairo_status_to_string(drawn))
+              : wf_plot_write_png(surface, write, to, err);
+    cairo_destroy(cr);
+    cairo_surface_destroy(surface);
+    return status;
 }

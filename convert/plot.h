@@ -26,4 +26,16 @@ typedef weft_status wf_plot_write_fn(void *to, const void *data, size_t bytes, w
 typedef weft_status wf_plot_png_fn(const wf_plot *plot, wf_plot_write_fn *write, void *to,
                                    weft_error *err);
 
+/* How strong something is where in a picture. */
+typedef struct wf_plot_map {
+    const char *title, *subtitle;
+    const float *value; /* [lines][width_px] */
+    int width_px, lines;
+    double pixel_aspect, high; /* high: what is drawn as strongest */
+} wf_plot_map;
+
+/* wf_plot_heat, another entry point. */
+typedef weft_status wf_plot_heat_fn(const wf_plot_map *map, wf_plot_write_fn *write, void *to,
+                                    weft_error *err);
+
 #endif

@@ -32,16 +32,17 @@ void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *c
 /* ---- Which raster it is ---- */
 
 static bool fits(const wf_raster *r, const wf_video_info *info, const wf_video_label *label) {
-    bool known = label->scan_known, interlaced = r->scan == WF_INTERLACED;
+    bool as_labelled = label->interlaced
+                           ? r->scan == WF_INTERLACED && r->top_first == label->top_first
+                           : r->scan == WF_PROGRESSIVE;
     return r->width_px == info->width_px && r->lines == info->lines &&
            (!wf_ratio_given(label->rate) || wf_ratio_equal(r->frame_rate, label->rate)) &&
-           (!known || interlaced == label->interlaced) &&
-           (!known || !interlaced || r->top_first == label->top_first);
+           (!label->scan_known || as_labelled);
 }
 
-/* Segmented frames of the standard definition rasters have no name of their own. */
-static bool fits_segmented(const wf_raster *r, const wf_video_info *info,
-                           const wf_video_label *label) {
+/* Progressive frames of the standard definition rasters have no name of their own. */
+static bool fits_whole(const wf_raster *r, const wf_video_info *info,
+                       const wf_video_label *label) {
     wf_video_label as_fields = *label;
     as_fields.scan_known = false;
     return label->scan_known && !label->interlaced && r->scan == WF_INTERLACED &&
@@ -76,9 +77,9 @@ static void find_raster(wf_video_info *info, const wf_video_label *label) {
     }
     const wf_raster *r;
     for (size_t i = 0; (r = wf_raster_at(i)); i++)
-        if (fits(r, info, label) || fits_segmented(r, info, label)) {
+        if (fits(r, info, label) || fits_whole(r, info, label)) {
             info->raster = *r;
-            if (!fits(r, info, label)) info->raster.scan = WF_SEGMENTED;
+            if (!fits(r, info, label)) info->raster.scan = WF_PROGRESSIVE;
             return;
         }
     make_raster(info, label);
