@@ -65,6 +65,20 @@ static void make_raster(wf_video_info *info, const wf_video_label *label) {
              info->raster.scan == WF_PROGRESSIVE ? "p" : "i");
 }
 
+/* The raster's 16:9 sister where the pixels say so, else the raster with these pixels. */
+static void take_aspect(wf_raster *raster, wf_rational aspect) {
+    char name[sizeof raster->name + sizeof "-wide"], why[256];
+    wf_raster wide;
+    if (!wf_ratio_given(aspect) || aspect.num <= 0 ||
+        wf_ratio_equal(aspect, raster->pixel_aspect))
+        return;
+    snprintf(name, sizeof name, "%s-wide", raster->name);
+    if (wf_raster_parse(name, &wide, why, sizeof why) &&
+        wf_ratio_equal(aspect, wide.pixel_aspect))
+        memcpy(raster->name, wide.name, sizeof raster->name);
+    raster->pixel_aspect = aspect;
+}
+
 static void find_raster(wf_video_info *info, const wf_video_label *label) {
     char why[256];
     wf_raster stated;
@@ -80,6 +94,7 @@ static void find_raster(wf_video_info *info, const wf_video_label *label) {
         if (fits(r, info, label) || fits_whole(r, info, label)) {
             info->raster = *r;
             if (!fits(r, info, label)) info->raster.scan = WF_PROGRESSIVE;
+            take_aspect(&info->raster, label->aspect);
             return;
         }
     make_raster(info, label);
