@@ -34,8 +34,8 @@ typedef struct wf_cmd {
     weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
 } wf_cmd;
 
-extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure, wf_cmd_filters,
-    wf_cmd_rasters, wf_cmd_info;
+extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
+    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info;
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
  * job. Operands are moved to the front of argv; *operand_count says how many. --name value,
@@ -50,6 +50,11 @@ weft_status wf_cmd_print_json(char *text, weft_error *err);
 
 /* "weft: " and a message on standard error, colored on a terminal unless NO_COLOR is set. */
 void wf_cmd_say(const char *kind, const char *text);
+
+/* A signal that asks the program to stop cancels the job, which is given 1.7 s for it. After
+ * the job, before it is freed, signals are ignored. */
+void wf_cmd_catch_signals(weft_job *job);
+void wf_cmd_ignore_signals(void);
 
 /* Which signal asked the program to stop; 0: none. */
 int wf_cmd_signal(void);

@@ -48,7 +48,7 @@ static void on_signal(int number) {
 
 /* SIGHUP that nohup has ignored stays ignored. SIGINT does not, which shells ignore in whatever
  * a script starts with '&': a job can be asked to stop whoever started it. */
-static void catch_signals(weft_job *job) {
+void wf_cmd_catch_signals(weft_job *job) {
     const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction old;
     running_job = job;
@@ -59,7 +59,7 @@ static void catch_signals(weft_job *job) {
         sigaction(SIGHUP, &action, NULL);
 }
 
-static void ignore_signals(void) {
+void wf_cmd_ignore_signals(void) {
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
@@ -120,9 +120,9 @@ static void say_done(const job_state *state) {
 static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
-    catch_signals(job);
+    wf_cmd_catch_signals(job);
     weft_status status = weft_job_run(job, err);
-    ignore_signals(); /* the job is about to be freed, and what is left takes no time */
+    wf_cmd_ignore_signals(); /* the job is about to be freed, and what is left takes no time */
     wf_meter_clear(&state->meter);
     bool finished = status == WEFT_OK || status == WEFT_DEGRADED;
     if (finished) say_done(state);

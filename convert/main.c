@@ -10,9 +10,9 @@
 #include "convert/fail.h"
 #include "filters/near.h"
 
-static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_render,  &wf_cmd_trace,
-                                         &wf_cmd_measure, &wf_cmd_filters, &wf_cmd_rasters,
-                                         &wf_cmd_info};
+static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_render,    &wf_cmd_trace,
+                                         &wf_cmd_measure, &wf_cmd_composite, &wf_cmd_filters,
+                                         &wf_cmd_rasters, &wf_cmd_info};
 
 #define COMMANDS (sizeof commands / sizeof *commands)
 
@@ -22,7 +22,7 @@ static void help(FILE *to) {
             "usage: weft COMMAND ...\n\n",
             weft_version());
     for (size_t i = 0; i < COMMANDS; i++)
-        fprintf(to, "  weft %-8s %-28s %s\n", commands[i]->name, commands[i]->operands,
+        fprintf(to, "  weft %-9s %-27s %s\n", commands[i]->name, commands[i]->operands,
                 commands[i]->summary);
     fputs("\nA first conversion, of a render with eight pictures to a field, to 525-line "
           "video:\n\n"

@@ -237,18 +237,7 @@ static weft_status choose_color(const weft_job *job, wf_setup *s, weft_error *er
                        "--fix-nan none is for linear EXR output only: %s cannot "
                        "hold NaN; take box3, black or error",
                        job->output);
-    weft_status status = choose_transform(job, s, err);
-    if (status) return status;
-    s->encoding = (wf_encoding){
-        .luma = raster_colors[job->raster.matrix].luma,
-        .chroma = job->chroma,
-        .legalize = job->legalize,
-        .ycbcr = s->sink->layout == WF_YCBCR,
-        .full_range = s->sink_options.full_range,
-        .bits = s->sink_options.bits,
-        .width_px = job->raster.width_px,
-    };
-    return WEFT_OK;
+    return choose_transform(job, s, err);
 }
 
 /* ---- Output ---- */
@@ -286,7 +275,7 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
     return WEFT_OK;
 }
 
-static weft_status choose_sink(const weft_job *job, wf_setup *s, weft_error *err) {
+weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
     s->sink = wf_sink_for(job->output, err);
     if (!s->sink) return WEFT_USAGE;
     int bits = job->bits ? job->bits : s->sink->default_bits;
@@ -307,11 +296,22 @@ static weft_status choose_sink(const weft_job *job, wf_setup *s, weft_error *err
         .overwrite = job->overwrite,
         .resume = job->resume,
     };
+    snprintf(s->color_space, sizeof s->color_space, "%s",
+             raster_colors[job->raster.matrix].space);
+    s->encoding = (wf_encoding){
+        .luma = raster_colors[job->raster.matrix].luma,
+        .chroma = job->chroma,
+        .legalize = job->legalize,
+        .ycbcr = s->sink->layout == WF_YCBCR,
+        .full_range = full,
+        .bits = bits,
+        .width_px = job->raster.width_px,
+    };
     return WEFT_OK;
 }
 
 weft_status wf_setup_output(weft_job *job, wf_setup *s, weft_error *err) {
-    weft_status status = choose_sink(job, s, err);
+    weft_status status = wf_setup_sink(job, s, err);
     return status ? status : choose_color(job, s, err);
 }
 

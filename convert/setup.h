@@ -32,6 +32,10 @@ void wf_setup_free(wf_setup *setup);
 /* The output's side of it alone: sink, colour, codes. */
 weft_status wf_setup_output(weft_job *job, wf_setup *setup, weft_error *err);
 
+/* Of that the sink and the codes, for signals that are in the raster's color already: nothing
+ * is transformed. */
+weft_status wf_setup_sink(const weft_job *job, wf_setup *setup, weft_error *err);
+
 /* Tells the sink which frames there will be: first_frame to end_frame. */
 void wf_setup_count_frames(wf_setup *setup);
 
