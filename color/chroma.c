@@ -58,17 +58,30 @@ void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t widt
         for (size_t i = 0; i < count; i++) line[i] = 0.5f * even[i] + filter->pair[0] * odd[i];
 }
 
+/* The odd sample after half[i]: from inside the line, and near its edges. */
+static float between(const wf_chroma_filter *filter, const float *half, ptrdiff_t i) {
+    float sum = 0;
+    for (ptrdiff_t j = 0; j < (ptrdiff_t)filter->pairs; j++)
+        sum += filter->pair[j] * (half[i - j] + half[i + 1 + j]);
+    return 2 * sum;
+}
+
+static float between_at_edge(const wf_chroma_filter *filter, const float *half, ptrdiff_t i,
+                             size_t width_px) {
+    float sum = 0;
+    for (ptrdiff_t j = 0; j < (ptrdiff_t)filter->pairs; j++)
+        sum += filter->pair[j] * (half[reflected(2 * (i - j), width_px) / 2] +
+                                  half[reflected(2 * (i + 1 + j), width_px) / 2]);
+    return 2 * sum;
+}
+
 void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
                            float *line) {
-    ptrdiff_t count = (ptrdiff_t)(width_px / 2);
+    ptrdiff_t count = (ptrdiff_t)(width_px / 2), pairs = (ptrdiff_t)filter->pairs;
     for (ptrdiff_t i = 0; i < count; i++) {
-        float sum = 0;
-        for (ptrdiff_t j = 0; j < (ptrdiff_t)filter->pairs; j++) {
-            size_t before = reflected(2 * (i - j), width_px);
-            size_t after = reflected(2 * (i + 1 + j), width_px);
-            sum += filter->pair[j] * (half[before / 2] + half[after / 2]);
-        }
+        bool inside = i >= pairs && i + pairs < count;
         line[2 * i] = half[i];
-        line[2 * i + 1] = 2 * sum;
+        line[2 * i + 1] =
+            inside ? between(filter, half, i) : between_at_edge(filter, half, i, width_px);
     }
 }

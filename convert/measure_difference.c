@@ -21,8 +21,8 @@ typedef struct sums {
 
 struct wf_difference {
     wf_layout layout;
-    double scale[3]; /* signals to shares of the largest code */
-    sums sum[3][3];  /* [plane][lines_of] */
+    double scale[3], offset[3]; /* signals to shares of the largest code */
+    sums sum[3][3];             /* [plane][lines_of] */
 };
 
 wf_difference *wf_difference_new(const wf_video_info *info) {
@@ -38,6 +38,7 @@ wf_difference *wf_difference_new(const wf_video_info *info) {
             most = (double)((1 << info->bits) - 1);
         }
         d->scale[p] = unit / most;
+        d->offset[p] = zero / most;
     }
     return d;
 }
@@ -51,14 +52,14 @@ typedef struct planes {
     const float *a, *b;
     size_t line_stride;
     int width, lines;
-    double scale;
+    double scale, offset;
 } planes;
 
 static planes planes_of(const wf_difference *d, const wf_video_frame *a,
                         const wf_video_frame *b, int p, lines_of which) {
     size_t width = (size_t)a->width_px[p], skip = which == BOTTOM ? width : 0;
-    planes out = {a->plane[p] + skip, b->plane[p] + skip, width,
-                  a->width_px[p],     a->lines[p],        d->scale[p]};
+    planes out = {a->plane[p] + skip, b->plane[p] + skip, width,       a->width_px[p],
+                  a->lines[p],        d->scale[p],        d->offset[p]};
     if (which == FRAME) return out;
     out.line_stride = 2 * width;
     out.lines = (a->lines[p] + (which == TOP)) / 2;
@@ -81,7 +82,8 @@ static double similarity(const planes *p, int x0, int y0) {
     for (int y = y0; y < y0 + WINDOW; y++)
         for (int x = x0; x < x0 + WINDOW; x++) {
             size_t at = (size_t)y * p->line_stride + (size_t)x;
-            double u = p->scale * (double)p->a[at], v = p->scale * (double)p->b[at];
+            double u = p->scale * (double)p->a[at] + p->offset;
+            double v = p->scale * (double)p->b[at] + p->offset;
             a += u, b += v, aa += u * u, bb += v * v, ab += u * v;
         }
     a /= n, b /= n;
