@@ -16,7 +16,8 @@ typedef struct filters_state {
 wf_aperture wf_filters_example(const wf_aperture_kind *kind, char *name) {
     wf_aperture example = {.kind = kind};
     char why[256];
-    snprintf(name, 64, "%s%s", kind->name, kind->parameters ? ":0.333,0.333" : "");
+    snprintf(name, 64, "%s%s%s", kind->name, kind->follows ? ":" : "",
+             kind->follows ? kind->example : "");
     wf_aperture_parse(name, &example, why, sizeof why);
     return example;
 }

@@ -42,7 +42,7 @@ static void print_header(const wf_filters_query *q) {
     const wf_aperture_kind *kind = q->aperture.kind;
     printf("%s: %s%s%s; temporal width %g field periods; reaches %g px, %g lines\n\n", q->name,
            kind->shape, *kind->paper ? "; the paper's " : "", kind->paper,
-           wf_filters_tau(q, &q->aperture), kind->reach_u, kind->reach_v);
+           wf_filters_tau(q, &q->aperture), q->aperture.reach_u, q->aperture.reach_v);
     printf("%5s   %-17s   %-17s   %-17s", "", "cycles/line", "cycles/pixel", "cycles/field");
     if (q->input_lines) printf("   %d to %d lines", q->input_lines, q->raster.lines);
     printf("\n%5s", "f");
@@ -88,13 +88,14 @@ static void print_residues(const wf_filters_query *q) {
 
 static void print_list(const wf_filters_query *q) {
     const wf_aperture_kind *kind;
-    printf("%-13s %-5s %-14s %s\n", "name", "width", "reach",
+    printf("%-20s %-5s %-10s %s\n", "name", "width", "reach",
            "shape, and where the paper has it");
     for (size_t i = 0; (kind = wf_aperture_at(i)); i++) {
         char name[64], reach[48];
-        snprintf(name, sizeof name, "%s%s", kind->name, kind->parameters ? ":B,C" : "");
+        snprintf(name, sizeof name, "%s%s%s", kind->name, kind->follows ? ":" : "",
+                 kind->follows ? kind->follows : "");
         snprintf(reach, sizeof reach, "%gpx x %gl", kind->reach_u, kind->reach_v);
-        printf("%-13s %-5g %-14s %s%s%s\n", name, wf_ratio_value(kind->default_width), reach,
+        printf("%-20s %-5g %-10s %s%s%s\n", name, wf_ratio_value(kind->default_width), reach,
                kind->shape, *kind->paper ? ", " : "", kind->paper);
     }
     puts("\nwidth: of the window in time unless --temporal-width says otherwise, in field "
@@ -124,8 +125,8 @@ static void add_aperture(wf_json *json, const wf_filters_query *q, const char *n
     wf_json_text(json, "shape", a->kind->shape);
     wf_json_text(json, "paper", a->kind->paper);
     wf_json_real(json, "temporal_width", wf_filters_tau(q, a));
-    wf_json_real(json, "reach_pixels", a->kind->reach_u);
-    wf_json_real(json, "reach_lines", a->kind->reach_v);
+    wf_json_real(json, "reach_pixels", a->reach_u);
+    wf_json_real(json, "reach_lines", a->reach_v);
     wf_json_open(json, "parameters", '[');
     for (int p = 0; p < a->kind->parameters; p++) wf_json_real(json, NULL, a->parameter[p]);
     wf_json_close(json);
@@ -162,7 +163,7 @@ static void add_list(wf_json *json, const wf_filters_query *q) {
         wf_aperture a = wf_filters_example(kind, name);
         wf_json_open(json, NULL, '{');
         add_aperture(json, q, NULL, &a);
-        if (kind->parameters) wf_json_text(json, "example", name);
+        if (kind->follows) wf_json_text(json, "example", name);
         wf_json_close(json);
     }
 }

@@ -97,9 +97,10 @@ static size_t field_bytes(const wf_gathering *g) {
 
 static size_t kept_bytes(const wf_gathering *g) {
     const wf_sample_tiling *t = &g->source.tiling;
-    const wf_aperture_kind *kind = g->desc.aperture.kind;
-    int lines = (t->rows + (int)(2 * kind->reach_v)) / wf_raster_line_step(&g->job->raster) + 2;
-    int across = t->width_px + (int)(2 * kind->reach_u) + 2;
+    const wf_aperture *aperture = &g->desc.aperture;
+    int lines =
+        (t->rows + (int)(2 * aperture->reach_v)) / wf_raster_line_step(&g->job->raster) + 2;
+    int across = t->width_px + (int)(2 * aperture->reach_u) + 2;
     size_t pixel = wf_gather_bytes(&g->desc, 1) / (size_t)g->job->raster.width_px;
     size_t tile = (size_t)lines * (size_t)across * pixel + PATCH_BYTES;
     return 2 * field_bytes(g) + (size_t)t->count * 2 * (size_t)g->ways * tile;

@@ -1,11 +1,9 @@
 #include "filters/aperture.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "filters/design.h"
 #include "filters/profile.h"
 
 static double sinc(double z) {
@@ -21,8 +19,8 @@ static double overlap(double z0, double z1, double half) {
     return clamp(z1, -half, half) - clamp(z0, -half, half);
 }
 
-double wf_cell_u(double u0, double u1) {
-    return overlap(u0, u1, 0.5);
+double wf_cell_u(const wf_aperture *a, double u0, double u1) {
+    return overlap(u0, u1, a->half_u);
 }
 
 /* ---- The quadratic notch filter f (paper, section 5) and its integral from 0 ---- */
@@ -117,6 +115,10 @@ static double mitchell_cell_v(const wf_aperture *a, double v0, double v1) {
     return mitchell_integral(a, v1) - mitchell_integral(a, v0);
 }
 
+static double design_cell_v(const wf_aperture *a, double v0, double v1) {
+    return wf_stairs_integral(&a->stairs, v1) - wf_stairs_integral(&a->stairs, v0);
+}
+
 /* Integral from 0 of 1 - |v|: the diamond seen along time. */
 static double tent_integral(double v) {
     double s = fmin(fabs(v), 1);
@@ -146,7 +148,7 @@ static double diamond_cell_vq(double tau, double v0, double v1, double q0, doubl
 
 static double separable_cell_uv(const wf_aperture *a, double u0, double u1, double v0,
                                 double v1) {
-    return wf_cell_u(u0, u1) * a->kind->cell_v(a, v0, v1);
+    return wf_cell_u(a, u0, u1) * a->kind->cell_v(a, v0, v1);
 }
 
 /* ---- Responses ---- */
@@ -214,182 +216,140 @@ static double mitchell_response(const wf_aperture *a, double tau, double fx, dou
     return sinc(fx) * vertical * sinc(tau * ft);
 }
 
+static double design_response(const wf_aperture *a, double tau, double fx, double fy,
+                              double ft) {
+    return sinc(2 * a->half_u * fx) * wf_stairs_response(&a->stairs, fy) * sinc(tau * ft);
+}
+
 /* ---- The table (resampling.md, Apertures) ---- */
 
 static const wf_aperture_kind kinds[] = {
-    {"line",
-     "1 pixel x 1 line",
-     "Figure 8",
-     {1, 2},
-     0.5,
-     0.5,
-     0,
-     false,
-     false,
-     separable_cell_uv,
-     line_cell_v,
-     NULL,
-     line_response,
-     WF_PROFILE_LINE},
-    {"rotated",
-     "1 pixel x 1 line, a whole frame long",
-     "section 4",
-     {2, 1},
-     0.5,
-     0.5,
-     0,
-     false,
-     false,
-     separable_cell_uv,
-     line_cell_v,
-     NULL,
-     line_response,
-     WF_PROFILE_LINE},
-    {"box",
-     "1 pixel x 2 lines",
-     "Figure 6",
-     {1, 2},
-     0.5,
-     1,
-     0,
-     false,
-     false,
-     separable_cell_uv,
-     box_cell_v,
-     NULL,
-     box_response,
-     WF_PROFILE_BOX},
-    {"ccd",
-     "1 pixel x 2 lines, a whole field long",
-     "Figures 4 and 5",
-     {1, 1},
-     0.5,
-     1,
-     0,
-     false,
-     false,
-     separable_cell_uv,
-     box_cell_v,
-     NULL,
-     box_response,
-     WF_PROFILE_BOX},
-    {"notch",
-     "1 pixel x the quadratic f over 4 lines",
-     "section 5",
-     {1, 2},
-     0.5,
-     2,
-     0,
-     false,
-     false,
-     separable_cell_uv,
-     notch_cell_v,
-     NULL,
-     notch_response,
-     WF_PROFILE_NOTCH},
-    {"shaped",
-     "4 f(v) pixels wide over 4 lines",
-     "Figure 9",
-     {1, 2},
-     1,
-     2,
-     0,
-     true,
-     false,
-     shaped_cell_uv,
-     shaped_cell_v,
-     NULL,
-     shaped_response,
-     WF_PROFILE_SHAPED},
-    {"diamond",
-     "1 pixel x a diamond over 2 lines and tau",
-     "Figure 7",
-     {2, 1},
-     0.5,
-     1,
-     0,
-     false,
-     true,
-     separable_cell_uv,
-     diamond_cell_v,
-     diamond_cell_vq,
-     diamond_response,
-     WF_PROFILE_DIAMOND},
-    {"mitchell",
-     "1 pixel x Mitchell and Netravali's cubic B,C over 4 lines",
-     "section 5",
-     {1, 2},
-     0.5,
-     2,
-     2,
-     false,
-     false,
-     separable_cell_uv,
-     mitchell_cell_v,
-     NULL,
-     mitchell_response,
-     WF_PROFILE_MITCHELL},
+    {.name = "line",
+     .shape = "1 pixel x 1 line",
+     .paper = "Figure 8",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 0.5,
+     .cell_uv = separable_cell_uv,
+     .cell_v = line_cell_v,
+     .response = line_response,
+     .profile = WF_PROFILE_LINE},
+    {.name = "rotated",
+     .shape = "1 pixel x 1 line, a whole frame long",
+     .paper = "section 4",
+     .default_width = {2, 1},
+     .reach_u = 0.5,
+     .reach_v = 0.5,
+     .cell_uv = separable_cell_uv,
+     .cell_v = line_cell_v,
+     .response = line_response,
+     .profile = WF_PROFILE_LINE},
+    {.name = "box",
+     .shape = "1 pixel x 2 lines",
+     .paper = "Figure 6",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 1,
+     .cell_uv = separable_cell_uv,
+     .cell_v = box_cell_v,
+     .response = box_response,
+     .profile = WF_PROFILE_BOX},
+    {.name = "ccd",
+     .shape = "1 pixel x 2 lines, a whole field long",
+     .paper = "Figures 4 and 5",
+     .default_width = {1, 1},
+     .reach_u = 0.5,
+     .reach_v = 1,
+     .cell_uv = separable_cell_uv,
+     .cell_v = box_cell_v,
+     .response = box_response,
+     .profile = WF_PROFILE_BOX},
+    {.name = "notch",
+     .shape = "1 pixel x the quadratic f over 4 lines",
+     .paper = "section 5",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 2,
+     .cell_uv = separable_cell_uv,
+     .cell_v = notch_cell_v,
+     .response = notch_response,
+     .profile = WF_PROFILE_NOTCH},
+    {.name = "shaped",
+     .shape = "4 f(v) pixels wide over 4 lines",
+     .paper = "Figure 9",
+     .default_width = {1, 2},
+     .reach_u = 1,
+     .reach_v = 2,
+     .couples_uv = true,
+     .cell_uv = shaped_cell_uv,
+     .cell_v = shaped_cell_v,
+     .response = shaped_response,
+     .profile = WF_PROFILE_SHAPED},
+    {.name = "diamond",
+     .shape = "1 pixel x a diamond over 2 lines and tau",
+     .paper = "Figure 7",
+     .default_width = {2, 1},
+     .reach_u = 0.5,
+     .reach_v = 1,
+     .couples_vq = true,
+     .cell_uv = separable_cell_uv,
+     .cell_v = diamond_cell_v,
+     .cell_vq = diamond_cell_vq,
+     .response = diamond_response,
+     .profile = WF_PROFILE_DIAMOND},
+    {.name = "mitchell",
+     .shape = "1 pixel x Mitchell and Netravali's cubic B,C over 4 lines",
+     .paper = "section 5",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 2,
+     .follows = "B,C",
+     .example = "0.333,0.333",
+     .parameters = 2,
+     .cell_uv = separable_cell_uv,
+     .cell_v = mitchell_cell_v,
+     .response = mitchell_response,
+     .profile = WF_PROFILE_MITCHELL},
+    {.name = "crisp",
+     .shape = "1.6 pixels x a kernel of 8 lines, designed to be sharp",
+     .paper = "",
+     .default_width = {1, 2},
+     .reach_u = 1,
+     .reach_v = 4,
+     .design = "overshoot=0.078,sharp=0.802,width=1.6",
+     .comb = wf_comb_crisp,
+     .cell_uv = separable_cell_uv,
+     .cell_v = design_cell_v,
+     .response = design_response,
+     .profile = WF_PROFILE_DESIGN},
+    {.name = "calm",
+     .shape = "1 pixel x a kernel of 8 lines, designed to flicker little",
+     .paper = "",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 4,
+     .design = "overshoot=0.049,sharp=0.951,at=0.125,sharp=0.492,at=0.25",
+     .comb = wf_comb_calm,
+     .cell_uv = separable_cell_uv,
+     .cell_v = design_cell_v,
+     .response = design_response,
+     .profile = WF_PROFILE_DESIGN},
+    {.name = "design",
+     .shape = "1 pixel or more x a kernel designed to measure",
+     .paper = "",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 4,
+     .follows = "KEY=VALUE,..",
+     .example = "sharp=0.7",
+     .cell_uv = separable_cell_uv,
+     .cell_v = design_cell_v,
+     .response = design_response,
+     .profile = WF_PROFILE_DESIGN},
 };
 
 const wf_aperture_kind *wf_aperture_at(size_t index) {
     return index < sizeof kinds / sizeof *kinds ? &kinds[index] : NULL;
-}
-
-static bool list_names(char *why, size_t why_size, const char *text) {
-    int used = snprintf(why, why_size, "no aperture is called '%s'; there are", text);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        if (used < 0 || (size_t)used >= why_size) break;
-        used += snprintf(why + used, why_size - (size_t)used, "%s %s%s", i ? "," : "",
-                         kinds[i].name, kinds[i].parameters ? ":B,C" : "");
-    }
-    return false;
-}
-
-/* Reads "1.5" or "3/2"; *end is where it stopped, text itself if it is no number. */
-static double read_number(const char *text, char **end) {
-    double value = strtod(text, end);
-    if (*end == text || **end != '/') return value;
-    const char *below = *end + 1;
-    value /= strtod(below, end);
-    if (*end == below) *end = (char *)(uintptr_t)text;
-    return value;
-}
-
-/* Reads "B,C" after the colon. Beyond +-10 the cubic's lobes cancel to nothing useful. */
-static bool parse_parameters(const char *text, wf_aperture *out) {
-    for (int p = 0; p < out->kind->parameters; p++) {
-        char *end;
-        double value = read_number(text, &end);
-        char follows = p + 1 < out->kind->parameters ? ',' : '\0';
-        if (end == text || *end != follows || !(fabs(value) <= 10)) return false;
-        out->parameter[p] = value;
-        text = end + 1;
-    }
-    return true;
-}
-
-bool wf_aperture_parse(const char *text, wf_aperture *out, char *why, size_t why_size) {
-    size_t length = strcspn(text, ":");
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        if (strlen(kinds[i].name) != length || strncmp(kinds[i].name, text, length)) continue;
-        wf_aperture found = {.kind = &kinds[i]};
-        bool fits = kinds[i].parameters
-                        ? text[length] && parse_parameters(text + length + 1, &found)
-                        : !text[length];
-        if (fits) {
-            *out = found;
-            return true;
-        }
-        snprintf(
-            why, why_size,
-            kinds[i].parameters
-                ? "aperture '%s': write it %s:B,C with two numbers from -10 to 10, such as "
-                  "mitchell:3/2,-1/4"
-                : "aperture '%s': %s takes no parameters",
-            text, kinds[i].name);
-        return false;
-    }
-    return list_names(why, why_size, text);
 }
 
 double wf_response(const wf_aperture *a, double tau, double fx, double fy, double ft) {

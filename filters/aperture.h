@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "filters/rational.h"
+#include "filters/stairs.h"
 
 /* Where the temporal window of a field lies about its instant. */
 typedef enum wf_position { WF_START, WF_CENTER, WF_END } wf_position;
@@ -18,6 +19,7 @@ typedef enum wf_profile {
     WF_PROFILE_SHAPED,
     WF_PROFILE_DIAMOND,
     WF_PROFILE_MITCHELL,
+    WF_PROFILE_DESIGN,
     WF_PROFILES
 } wf_profile;
 
@@ -28,8 +30,12 @@ typedef struct wf_aperture_kind {
     const char *shape; /* for people: "1 pixel x 2 lines" */
     const char *paper; /* where the paper shows it; "" if it does not */
     wf_rational default_width;
-    double reach_u, reach_v; /* h is zero beyond */
-    int parameters;          /* numbers after "name:" */
+    double reach_u, reach_v; /* h is zero beyond; of a design that names none */
+    const char *follows;     /* "B,C" if there are such after "name:"; else NULL */
+    const char *example;     /* of those */
+    int parameters;          /* numbers among them that are kept */
+    const char *design;      /* what was wished for (filters/design.h), unless that follows */
+    const double *comb;      /* and what came of it */
     bool couples_uv;         /* h does not separate into u and v (shaped) */
     bool couples_vq;         /* h does not separate into v and q (diamond with tau > 0) */
     /* Integral of h's spatial part over the cell [u0,u1] x [v0,v1]. */
@@ -44,17 +50,25 @@ typedef struct wf_aperture_kind {
 
 struct wf_aperture {
     const wf_aperture_kind *kind;
-    double parameter[2]; /* mitchell: B, C */
+    double parameter[2];     /* mitchell: B, C */
+    double reach_u, reach_v; /* multiples of 1/2; h is zero beyond */
+    double half_u;           /* of those that separate: h is zero where |u| is more */
+    wf_stairs stairs;        /* designs: the vertical part */
 };
 
 /* The table, by index; NULL past the end. */
 const wf_aperture_kind *wf_aperture_at(size_t index);
 
-/* "box", "mitchell:1.5,-0.25". False with a reason and the names there are in why. */
+/* "box", "mitchell:1.5,-0.25", "design:sharp=0.7". False with a reason and the names there are
+ * in why. */
 bool wf_aperture_parse(const char *text, wf_aperture *out, char *why, size_t why_size);
 
-/* Integral of the horizontal part B_1(u) over [u0, u1]. */
-double wf_cell_u(double u0, double u1);
+/* Whether the names of a kind ask for a design, and of what: the text after "design:", or what
+ * the name stands for. NULL if it is none. */
+const char *wf_aperture_wish(const wf_aperture_kind *kind, const char *name);
+
+/* Integral of the horizontal part, B_1(u) but for designs, over [u0, u1]. */
+double wf_cell_u(const wf_aperture *a, double u0, double u1);
 
 /* Frequency response, 1 at DC; fx cycles/pixel, fy cycles/line, ft cycles/field period. */
 double wf_response(const wf_aperture *a, double tau, double fx, double fy, double ft);

@@ -23,12 +23,12 @@ void wf_kernel_release(wf_kernel *kernel) {
 static double cell_weight(const wf_resampler *rs, const wf_kernel *kernel, double u0,
                           double u1) {
     const wf_aperture *a = &rs->desc.aperture;
-    if (!a->kind->couples_uv) return wf_cell_u(u0, u1);
+    if (!a->kind->couples_uv) return wf_cell_u(a, u0, u1);
     return a->kind->cell_uv(a, u0, u1, kernel->v0, kernel->v1);
 }
 
 static void fill_weights(const wf_resampler *rs, wf_kernel *kernel) {
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     for (int r = 0; r < rs->phases; r++) {
         wf_span span = wf_axis_reach(&rs->x, reach, r);
         for (int t = 0; t < rs->taps; t++) {
@@ -41,7 +41,7 @@ static void fill_weights(const wf_resampler *rs, wf_kernel *kernel) {
 }
 
 static void fill_totals(const wf_resampler *rs, wf_kernel *kernel) {
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     for (int i = 0; i < rs->x.pixels; i++) {
         const double *weight = kernel->weight + (i % rs->phases) * rs->taps;
         wf_span span = wf_axis_reach(&rs->x, reach, i);

@@ -31,7 +31,7 @@ static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
  * pixel phases * m + r. */
 static void filter_phases(const wf_resampler *rs, const double *weight, const double *row,
                           double *out) {
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     for (int r = 0; r < rs->phases; r++) {
         size_t count = (size_t)((rs->x.pixels - r + rs->phases - 1) / rs->phases);
         int first = wf_axis_reach(&rs->x, reach, r).first - rs->columns.first;
@@ -47,7 +47,7 @@ static void filter_phases(const wf_resampler *rs, const double *weight, const do
 
 static void filter_pixels(const wf_resampler *rs, const double *weight, const double *row,
                           double *out) {
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     for (int i = 0; i < rs->x.pixels; i++) {
         int r = i % rs->phases;
         wf_span span = wf_axis_reach(&rs->x, reach, i);
@@ -63,7 +63,7 @@ static void filter_pixels(const wf_resampler *rs, const double *weight, const do
 static void add_overscan(const wf_field *f, wf_span taps, const wf_kernel *kernel,
                          wf_scratch *s) {
     const wf_resampler *rs = f->rs;
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     for (int i = 0; i < rs->x.pixels; i++) {
         const double *weight = kernel->weight + (i % rs->phases) * rs->taps;
         wf_span span = wf_axis_reach(&rs->x, reach, i);

@@ -134,8 +134,8 @@ static void index_bands(builder *b) {
 static bool build(builder *b) {
     wf_plan *plan = b->plan;
     for (int line = 0; line < plan->lines; line++)
-        b->reach[line] = wf_axis_reach(&b->rs->y, b->rs->desc.aperture.kind->reach_v,
-                                       frame_line(plan, line));
+        b->reach[line] =
+            wf_axis_reach(&b->rs->y, b->rs->desc.aperture.reach_v, frame_line(plan, line));
     int top_line = 0;
     for (int band = 0; band < b->rs->band_count; band++)
         if (!add_band(b, band, &top_line)) return false;
@@ -171,7 +171,7 @@ static wf_span reached(const wf_axis *axis, double reach) {
 }
 
 static void lay_out_columns(wf_resampler *rs) {
-    double reach = rs->desc.aperture.kind->reach_u;
+    double reach = rs->desc.aperture.reach_u;
     rs->phases = wf_axis_phases(&rs->x);
     for (int r = 0; r < rs->phases; r++) {
         wf_span span = wf_axis_reach(&rs->x, reach, r);
@@ -199,8 +199,8 @@ static bool set_up(wf_resampler *rs, char *why, size_t why_size) {
                  "give a simpler --input-par");
         return false;
     }
-    rs->columns = reached(&rs->x, kind->reach_u);
-    rs->rows = reached(&rs->y, kind->reach_v);
+    rs->columns = reached(&rs->x, rs->desc.aperture.reach_u);
+    rs->rows = reached(&rs->y, rs->desc.aperture.reach_v);
     int first = floor_to_band(rs, rs->rows.first);
     rs->band_count = (rs->rows.end - first + rs->desc.band_rows - 1) / rs->desc.band_rows;
     rs->sums_by_row = kind->couples_uv && !rs->desc.timing.skew.num;

@@ -76,9 +76,21 @@ static void mitchell(PROFILE) {
     }
 }
 
+static void design(PROFILE) {
+    const double *step = a->stairs.height;
+    int count_v = a->stairs.count;
+    (void)tau, (void)q;
+    for (int i = 0; i < count; i++) {
+        int at = (int)fmin(fabs(v[i]) * WF_STAIRS_STEPS, count_v);
+        half_u[i] = a->half_u;
+        height[i] = at < count_v ? step[at] : 0;
+    }
+}
+
 extern wf_profile_fn *const TABLE[WF_PROFILES];
 wf_profile_fn *const TABLE[WF_PROFILES] = {
     [WF_PROFILE_LINE] = line,       [WF_PROFILE_BOX] = box,
     [WF_PROFILE_NOTCH] = notch,     [WF_PROFILE_SHAPED] = shaped,
     [WF_PROFILE_DIAMOND] = diamond, [WF_PROFILE_MITCHELL] = mitchell,
+    [WF_PROFILE_DESIGN] = design,
 };

@@ -13,7 +13,7 @@ static double edge(int64_t b, int j, int input_lines, int lines) {
 
 static double line_response(const wf_aperture *a, int j, int input_lines, int lines,
                             double fy) {
-    double cell = (double)lines / input_lines, reach = a->kind->reach_v;
+    double cell = (double)lines / input_lines, reach = a->reach_v;
     int64_t first = (int64_t)floor((j + 0.5 - reach) / cell) - 1;
     double re = 0, im = 0, total = 0;
     for (int64_t b = first; edge(b, j, input_lines, lines) < reach; b++) {

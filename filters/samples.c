@@ -43,7 +43,7 @@ void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double 
 
 void wf_gather_lines(const wf_gather_desc *d, int64_t field, double y0, double y1, int *first,
                      int *end) {
-    double reach = d->aperture.kind->reach_v;
+    double reach = d->aperture.reach_v;
     int parity = wf_raster_parity(d->raster, field), step = wf_raster_line_step(d->raster);
     int lines = wf_raster_field_lines(d->raster, parity);
     double low = ceil((y0 - reach - 0.5 - parity) / step);
@@ -61,7 +61,7 @@ size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
 
 wf_patch wf_gather_patch(const wf_gather_desc *d, int64_t field, const double x[2],
                          const double y[2]) {
-    double reach = d->aperture.kind->reach_u;
+    double reach = d->aperture.reach_u;
     int width = d->raster->width_px;
     double low = ceil(x[0] - reach - 0.5), high = floor(x[1] + reach - 0.5);
     wf_patch p = {low > 0 ? (int)low : 0, high < width - 1 ? (int)high + 1 : width, 0, 0};

@@ -150,7 +150,7 @@ static void add_to_line(wf_gather *g, run *r, int line, double low, double high)
 }
 
 static void add_run(wf_gather *g, run *r) {
-    double reach = g->desc.aperture.kind->reach_v;
+    double reach = g->desc.aperture.reach_v;
     double low[2], high[2];
     find_ends(r->x, r->padded, &low[0], &high[0]);
     find_ends(r->y, r->padded, &low[1], &high[1]);

@@ -29,10 +29,17 @@ static int is(const reference *r, const char *name) {
     return !strcmp(r->aperture, name);
 }
 
+static double steps(const reference *r, double v) {
+    int step = (int)(fabs(v) * 8);
+    return step < r->step_count ? r->steps[step] : 0;
+}
+
 /* Integral over u in [u0, u1] and q in [q0, q1] at height v, u and q from the aperture's
  * centre. */
 static double slice(const reference *r, const double u[2], const double q[2], double v) {
-    double across = length_within(u[0], u[1], -0.5, 0.5), along = q[1] - q[0];
+    double half_u = r->step_count ? r->half_u : 0.5;
+    double across = length_within(u[0], u[1], -half_u, half_u), along = q[1] - q[0];
+    if (r->step_count) return across * along * steps(r, v);
     if (is(r, "line") || is(r, "rotated")) return fabs(v) < 0.5 ? across * along : 0;
     if (is(r, "box") || is(r, "ccd")) return fabs(v) < 1 ? across * along : 0;
     if (is(r, "notch")) return across * along * f_notch(v);
@@ -52,12 +59,16 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+#define MOST_KNOTS 128
+
 /* Heights at which the slice is not smooth. */
 static int knots(const reference *r, const double u[2], const double q[2], const double v[2],
-                 double out[32]) {
-    double all[32];
+                 double out[MOST_KNOTS]) {
+    double all[MOST_KNOTS];
     int n = 0, kept = 0;
     for (int e = -4; e <= 4; e++) all[n++] = e / 2.0;
+    int first = (int)fmax(floor(v[0] * 8), -r->step_count);
+    for (int e = first; e <= r->step_count && e < v[1] * 8; e++) all[n++] = e / 8.0;
     for (int e = 0; e < 2 && is(r, "shaped"); e++) {
         double level = fabs(u[e]) / 2;
         double at = level > 0.5 ? 0 : level > 0.25 ? sqrt(2 - 4 * level) : 2 - 2 * sqrt(level);
@@ -82,7 +93,7 @@ static double cell_weight(const reference *r, const double u[2], const double v[
                           const double q[2]) {
     static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834};
     static const double share[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-    double edge[32], sum = 0;
+    double edge[MOST_KNOTS], sum = 0;
     int count = knots(r, u, q, v, edge);
     for (int k = 0; k + 1 < count; k++) {
         double half = (edge[k + 1] - edge[k]) / 2, mid = (edge[k + 1] + edge[k]) / 2;
@@ -152,8 +163,9 @@ static void add_subframe(const reference *r, int i, int j, int k, int channel,
                          const double q[2], sums *s) {
     int a0 = (int)floor((i + 0.5 - 1.5 - r->origin_x) / r->cell_w) - 1;
     int a1 = (int)ceil((i + 0.5 + 1.5 - r->origin_x) / r->cell_w) + 1;
-    int b0 = (int)floor((j + 0.5 - 2.5 - r->origin_y) / r->cell_h) - 1;
-    int b1 = (int)ceil((j + 0.5 + 2.5 - r->origin_y) / r->cell_h) + 1;
+    double lines = fmax(2.5, r->step_count / 8.0);
+    int b0 = (int)floor((j + 0.5 - lines - r->origin_y) / r->cell_h) - 1;
+    int b1 = (int)ceil((j + 0.5 + lines - r->origin_y) / r->cell_h) + 1;
     for (int b = b0; b <= b1; b++)
         for (int a = a0; a <= a1; a++) {
             double u[2], v[2];

@@ -11,6 +11,9 @@ typedef struct reference {
     double field_period_s;
     const char *aperture; /* without parameters */
     double b, c;          /* mitchell */
+    const double *steps;  /* designs: heights of the kernel's steps, an eighth of a line each */
+    int step_count;       /* from the middle outward, to each side */
+    double half_u;        /* and half its width in pixels */
     double tau;           /* field periods */
     double position;      /* where the window lies: 0 start, 0.5 center, 1 end */
     double skew;

@@ -20,7 +20,10 @@ static const char *const names[] = {"line",
                                     "diamond",
                                     "mitchell:0.3333333333333333,0.3333333333333333",
                                     "mitchell:1.5,-0.25",
-                                    "mitchell:0,0.5"};
+                                    "mitchell:0,0.5",
+                                    "crisp",
+                                    "calm",
+                                    "design:sharp=0.6,support=2.5,width=2"};
 
 static wf_aperture named(const char *name) {
     wf_aperture a;
@@ -45,7 +48,7 @@ static double integral_of_value(const wf_aperture *a, const double lo[3], const 
 
 static double cell(const wf_aperture *a, const double lo[3], const double hi[3]) {
     if (a->kind->couples_vq)
-        return wf_cell_u(lo[0], hi[0]) * a->kind->cell_vq(1, lo[1], hi[1], lo[2], hi[2]);
+        return wf_cell_u(a, lo[0], hi[0]) * a->kind->cell_vq(1, lo[1], hi[1], lo[2], hi[2]);
     return a->kind->cell_uv(a, lo[0], hi[0], lo[1], hi[1]) * (hi[2] - lo[2]);
 }
 
@@ -96,9 +99,9 @@ static double fourier_sum(const wf_aperture *a, double tau, const double f[3]) {
     enum { N = 64 };
     double real = 0, total = 0;
     for (int i = 0; i < N; i++)
-        for (int j = 0; j < 4 * N; j++)
+        for (int j = 0; j < 8 * N; j++)
             for (int k = 0; k < N; k++) {
-                double z[3] = {-1 + 2 * (i + 0.5) / N, -2 + (j + 0.5) / N,
+                double z[3] = {-1 + 2 * (i + 0.5) / N, -4 + (j + 0.5) / N,
                                tau * ((k + 0.5) / N - 0.5)};
                 double h = h_at(a, tau, z);
                 if (h == 0) continue;
@@ -128,8 +131,10 @@ static void responses_at_dc_and_at_the_notch(void **state) {
         wf_aperture a = named(names[n]);
         assert_true(fabs(wf_response(&a, 0.5, 0, 0, 0) - 1) < 1e-12);
     }
-    const char *const notched[] = {"box", "ccd", "notch", "shaped", "mitchell:1.5,-0.25"};
-    for (size_t n = 0; n < 5; n++) {
+    const char *const notched[] = {
+        "box",   "ccd",  "notch",           "shaped", "mitchell:1.5,-0.25",
+        "crisp", "calm", "design:sharp=0.7"};
+    for (size_t n = 0; n < sizeof notched / sizeof *notched; n++) {
         wf_aperture a = named(notched[n]);
         assert_true(fabs(wf_response(&a, 0.5, 0, 0.5, 0)) < 1e-12);
     }
@@ -167,13 +172,13 @@ static void kernels_at_one_sample_a_line(void **state) {
 /* With s samples a line and 2s whole, the weights keep the zero at half a cycle a line. */
 static void whole_samples_keep_the_zero(void **state) {
     (void)state;
-    const char *const zeros[] = {"box", "notch", "shaped", "ccd"};
-    for (size_t n = 0; n < 4; n++)
+    const char *const zeros[] = {"box", "notch", "shaped", "ccd", "crisp", "calm"};
+    for (size_t n = 0; n < sizeof zeros / sizeof *zeros; n++)
         for (int s = 1; s <= 9; s++) {
             wf_aperture a = named(zeros[n]);
             wf_axis axis;
             assert_true(wf_axis_init(&axis, &(wf_fitting){40, 40 * s, {1, s}, false}));
-            wf_span reach = wf_axis_reach(&axis, a.kind->reach_v, 20);
+            wf_span reach = wf_axis_reach(&axis, a.reach_v, 20);
             double sum = 0, total = 0;
             for (int b = reach.first; b < reach.end; b++) {
                 double v0 = wf_axis_edge(&axis, b, 20), v1 = wf_axis_edge(&axis, b + 1, 20);
@@ -191,7 +196,8 @@ static void names_are_checked(void **state) {
     char why[256];
     const char *const wrong[] = {
         "",           "boxx",        "box:1",          "mitchell",       "mitchell:",
-        "mitchell:1", "mitchell:1,", "mitchell:1,2,3", "mitchell:nan,0", "mitchell:1e9,0"};
+        "mitchell:1", "mitchell:1,", "mitchell:1,2,3", "mitchell:nan,0", "mitchell:1e9,0",
+        "crisp:1",    "design",      "design:",        "design:sharp"};
     for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
         why[0] = '\0';
         assert_false(wf_aperture_parse(wrong[n], &a, why, sizeof why));

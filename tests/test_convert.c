@@ -12,6 +12,7 @@
 
 #include "convert/source.h"
 #include "convert/weft.h"
+#include "filters/aperture.h"
 #include "filters/half.h"
 #include "tests/exr_write.h"
 #include "tests/jobs.h"
@@ -128,7 +129,11 @@ static double ratio(const char *text) {
     return *end == '/' ? num / strtod(end + 1, NULL) : num;
 }
 
-static reference refer(const scenario *s, const weft_raster *raster) {
+static reference refer(const scenario *s, const weft_raster *raster, wf_aperture *a) {
+    char why[256];
+    bool parsed = wf_aperture_parse(strcmp(s->aperture, "mitchell") ? s->aperture : "box", a,
+                                    why, sizeof why);
+    assert_true(parsed);
     double fields = (raster->interlaced && !raster->segmented ? 2.0 : 1.0) *
                     (double)raster->rate_num / (double)raster->rate_den;
     double cell_w = (double)raster->width_px / s->m.width,
@@ -145,6 +150,9 @@ static reference refer(const scenario *s, const weft_raster *raster) {
         .aperture = s->aperture,
         .b = 1.0 / 3,
         .c = 1.0 / 3,
+        .steps = a->stairs.height,
+        .step_count = a->stairs.count,
+        .half_u = a->half_u,
         .tau = s->tau,
         .position = s->position,
         .rate = ratio(s->rate),
@@ -212,7 +220,8 @@ static void check(const scenario *s, int step) {
     char options[512], report[JOB_REPORT];
     weft_raster raster;
     must_parse(s->raster, &raster);
-    reference r = refer(s, &raster);
+    wf_aperture aperture;
+    reference r = refer(s, &raster, &aperture);
     snprintf(options, sizeof options,
              "raster=%s aperture=%s%s temporal-width=%.17g subframe-rate=%s overwrite %s",
              s->raster, s->aperture,
@@ -228,8 +237,8 @@ static void check(const scenario *s, int step) {
     if (frames > 1) check_frame(s, &r, frames - 1, step);
 }
 
-static const char *const apertures[] = {"line",  "rotated", "box",     "ccd",
-                                        "notch", "shaped",  "diamond", "mitchell"};
+static const char *const apertures[] = {"line",   "rotated", "box",      "ccd",   "notch",
+                                        "shaped", "diamond", "mitchell", "crisp", "calm"};
 #define APERTURES (sizeof apertures / sizeof *apertures)
 
 static void linear_output_of_awkward_ratios(void **state) {
@@ -345,7 +354,8 @@ static void neutral_luma(void **state) {
              NULL);
     weft_raster raster;
     must_parse(s.raster, &raster);
-    reference r = refer(&s, &raster);
+    wf_aperture aperture;
+    reference r = refer(&s, &raster, &aperture);
     size_t size;
     uint8_t *bytes = job_file("out.y4m", &size);
     const uint8_t *frame = memchr(bytes, '\n', size);

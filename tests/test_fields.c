@@ -116,9 +116,10 @@ static void tiles(void **state) {
     for (size_t a = 0; weft_aperture_name(a); a++) {
         weft_error err;
         weft_fields *fields;
-        weft_job *job =
-            make_job(strcmp(weft_aperture_name(a), "mitchell") ? weft_aperture_name(a)
-                                                               : "mitchell:0.5,0.25");
+        const char *name = weft_aperture_name(a);
+        weft_job *job = make_job(!strcmp(name, "mitchell") ? "mitchell:0.5,0.25"
+                                 : !strcmp(name, "design") ? "design:sharp=0.7"
+                                                           : name);
         t.count = 0;
         assert_int_equal(weft_fields_new(job, 2, take, &t, &fields, &err), WEFT_OK);
         for (int n = 0; n < 6; n++)

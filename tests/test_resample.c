@@ -126,6 +126,9 @@ static reference refer(const scenario *s, const wf_resample_desc *d, const movie
         .aperture = d->aperture.kind->name,
         .b = d->aperture.parameter[0],
         .c = d->aperture.parameter[1],
+        .steps = d->aperture.stairs.height,
+        .step_count = d->aperture.stairs.count,
+        .half_u = d->aperture.half_u,
         .tau = wf_ratio_value(s->width),
         .position = s->position == WF_START    ? 0
                     : s->position == WF_CENTER ? 0.5
@@ -249,7 +252,9 @@ static const char *const apertures[] = {"line",
                                         "shaped",
                                         "diamond",
                                         "mitchell:0.3333333,0.3333333",
-                                        "mitchell:1.5,-0.25"};
+                                        "mitchell:1.5,-0.25",
+                                        "crisp",
+                                        "design:support=2.5,sharp=0.6,width=1"};
 
 static const scenario plain = {
     .aperture = "shaped",

@@ -90,6 +90,8 @@ static void responses_are_the_formulas(void **state) {
     for (size_t n = 0; (name = weft_aperture_name(n)); n++) {
         const char *asked =
             strcmp(name, "mitchell") ? name : "mitchell:1.5,-0.25"; /* which is notch */
+        if (strstr("crisp calm design", name))
+            continue; /* tests/test_design.c has their sums */
         double tolerance = strcmp(name, "shaped") ? 1e-12 : 1e-6;
         for (int t = 0; t < 5; t++)
             for (double fx = -0.6; fx < 1.2; fx += 0.3)
@@ -104,7 +106,7 @@ static void responses_are_the_formulas(void **state) {
                                      taus[t], got, want);
                     }
     }
-    assert_int_equal(weft_aperture_name(8) == NULL, 1);
+    assert_int_equal(weft_aperture_name(11) == NULL, 1);
 }
 
 static void widths_unless_told(void **state) {
@@ -208,8 +210,9 @@ static void figures_of_the_specification(void **state) {
 /* Whole half lines: nothing is left of it. At 3/2 cells a line something is. */
 static void whole_ratios_leave_nothing(void **state) {
     (void)state;
-    const char *const notched[] = {"box", "ccd", "notch", "shaped", "mitchell:1.5,-0.25"};
-    for (size_t n = 0; n < 5; n++) {
+    const char *const notched[] = {"box",   "ccd", "notch", "shaped", "mitchell:1.5,-0.25",
+                                   "crisp", "calm"};
+    for (size_t n = 0; n < sizeof notched / sizeof *notched; n++) {
         wf_aperture a = named(notched[n]);
         for (int s = 1; s < 12; s++) assert_true(wf_line_residue(&a, 486 * s, 486, 0.5) == 0);
         assert_true(wf_line_residue(&a, 487, 486, 0.5) > 1e-9);

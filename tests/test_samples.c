@@ -74,12 +74,22 @@ static bool within(double z, double width) {
     return fabs(z) <= width / 2;
 }
 
+/* `crisp`: its steps as they stand, an eighth of a line each. */
+static double crisp(double u, double v) {
+    static wf_aperture a;
+    char why[256];
+    if (!a.kind) assert_true(wf_aperture_parse("crisp", &a, why, sizeof why));
+    int step = (int)(fabs(v) * 8);
+    return within(u, 1.6) && step < a.stairs.count ? a.stairs.height[step] : 0;
+}
+
 static double h(const char *name, double tau, double u, double v, double q) {
     if (!within(q, tau > 0 ? tau : 2 * 0x1p-12)) return 0;
     if (!strcmp(name, "line")) return within(u, 1) && within(v, 1);
     if (!strcmp(name, "box")) return within(u, 1) && within(v, 2);
     if (!strcmp(name, "notch")) return within(u, 1) ? f(v) : 0;
     if (!strcmp(name, "shaped")) return fabs(u) < 2 * f(v);
+    if (!strcmp(name, "crisp")) return crisp(u, v);
     if (!strcmp(name, "diamond") && tau > 0)
         return within(u, 1) && fabs(v) + fabs(2 * q / tau) <= 1;
     if (!strcmp(name, "diamond")) return within(u, 1) ? fmax(0, 1 - fabs(v)) : 0;
@@ -168,7 +178,8 @@ static const struct {
 } apertures[] = {{"line", "line"},       {"line", "rotated"},
                  {"box", "box"},         {"box", "ccd"},
                  {"notch", "notch"},     {"shaped", "shaped"},
-                 {"diamond", "diamond"}, {"mitchell", "mitchell:1/3,1/3"}};
+                 {"diamond", "diamond"}, {"mitchell", "mitchell:1/3,1/3"},
+                 {"crisp", "crisp"}};
 
 static void the_sums(void **state) {
     (void)state;

@@ -53,7 +53,10 @@ double wf_adaptive_share(const wf_adaptive *a) {
     static const double shares[WF_PROFILES] = {
         [WF_PROFILE_LINE] = 1,      [WF_PROFILE_BOX] = 0.5,      [WF_PROFILE_NOTCH] = 0.384,
         [WF_PROFILE_SHAPED] = 0.35, [WF_PROFILE_DIAMOND] = 0.75, [WF_PROFILE_MITCHELL] = 1};
-    return shares[a->s->desc.gather.aperture.kind->profile];
+    const wf_aperture *aperture = &a->s->desc.gather.aperture;
+    if (aperture->kind->profile == WF_PROFILE_DESIGN)
+        return wf_stairs_power(&aperture->stairs) / (2 * aperture->half_u);
+    return shares[aperture->kind->profile];
 }
 
 static double mean_of(const wf_adaptive_cell *c, int quarter, int channel) {

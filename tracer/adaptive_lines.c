@@ -7,7 +7,8 @@
 #define MANY_PIECES 8
 
 int wf_edge_pieces(const wf_aperture *aperture) {
-    bool cuts = aperture->kind->couples_uv || aperture->kind->couples_vq;
+    bool wide = aperture->half_u != 0.5; /* its sides lie within cells */
+    bool cuts = aperture->kind->couples_uv || aperture->kind->couples_vq || wide;
     return cuts ? MANY_PIECES : WF_FEW_PIECES;
 }
 

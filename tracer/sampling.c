@@ -219,7 +219,7 @@ static bool trace_drawn(const wf_tile *t, double late, size_t count) {
 /* Lines of a field that a row's samples can reach: first <= l < end. */
 static void lines_of(const wf_sampling *s, int64_t field, int row, int *first, int *end) {
     wf_gather_lines(&s->desc.gather, field, row, row + 1, first, end);
-    double reach = s->desc.gather.aperture.kind->reach_v;
+    double reach = s->desc.gather.aperture.reach_v;
     int step = wf_raster_line_step(&s->raster), parity = wf_raster_parity(&s->raster, field);
     /* Lines that only the row's very edge touches need no samples of it. */
     while (*first < *end && parity + *first * step + 0.5 + reach <= row) ++*first;
@@ -291,20 +291,20 @@ static bool trace_rows(const wf_tile *t, int first, int end) {
 
 /* Whether the apertures of both parities reach the samples of one. */
 static bool serves_both(const wf_sampling *s) {
-    const wf_aperture_kind *kind = s->desc.gather.aperture.kind;
+    const wf_aperture *a = &s->desc.gather.aperture;
     if (s->periods) return true;
-    return kind->reach_v > 0.5 && !(s->skew > 0) && !(kind->couples_vq && s->tau > 0);
+    return a->reach_v > 0.5 && !(s->skew > 0) && !(a->kind->couples_vq && s->tau > 0);
 }
 
 /* Where nothing but background is seen, in a tile and in those about it, that is known without
  * samples: a pixel that sees into this tile then sees no further than those. */
 static const float *background_of(const wf_tile *t, int first, int end) {
-    const wf_aperture_kind *kind = t->s->desc.gather.aperture.kind;
+    const wf_aperture *a = &t->s->desc.gather.aperture;
     const double x[2] = {t->x0 - TILE_WIDTH, t->x1 + TILE_WIDTH};
     const double y[2] = {first - TILE_HEIGHT, end + TILE_HEIGHT};
     /* Of windows that see several units nothing is known yet but of this one. */
     if (t->s->periods && !wf_tracer_still(t->s->tracer)) return NULL;
-    if (!t->s->desc.skip || 2 * kind->reach_u > TILE_WIDTH || 2 * kind->reach_v > TILE_HEIGHT)
+    if (!t->s->desc.skip || 2 * a->reach_u > TILE_WIDTH || 2 * a->reach_v > TILE_HEIGHT)
         return NULL;
     bool nothing = t->s->nothing || wf_trace_nothing(t->s->tracer, t->c->trace, x, y);
     return nothing ? t->s->desc.scene->background : NULL;

@@ -64,8 +64,9 @@ int main(void) {
         if (!(*arrays[n] = malloc(room * sizeof(float)))) return 1;
     for (size_t n = 0; wf_aperture_at(n); n++) {
         char name[64];
-        snprintf(name, sizeof name, "%s%s", wf_aperture_at(n)->name,
-                 wf_aperture_at(n)->parameters ? ":0.333,0.333" : "");
+        const wf_aperture_kind *kind = wf_aperture_at(n);
+        snprintf(name, sizeof name, "%s%s%s", kind->name, kind->follows ? ":" : "",
+                 kind->follows ? kind->example : "");
         wf_gather_desc d = {.raster = &raster, .width = {1, 2}};
         if (!wf_aperture_parse(name, &d.aperture, why, sizeof why)) return 1;
         printf("%-20s %5.1f ns a sample\n", name, run(&d, &b));

@@ -1,0 +1,284 @@
+#include "filters/design.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "filters/flicker.h"
+#include "filters/qp.h"
+
+/* Contrast may turn over beyond a quarter of a cycle a line, but no further than this. */
+#define REVERSAL 0.05
+
+/* Responses are held at frequencies so close together that what a kernel of `support` lines
+ * does between them is within a fiftieth: closer where it is steep. */
+#define POINTS_A_LINE 16
+#define CLOSER        32
+#define STEEP         2
+#define BETWEEN       0.98
+
+/* The program's values are of the order of 1. */
+#define SCALE 400
+
+/* The integral of m squared, times this, is added to flicker squared: of kernels that flicker
+ * alike the one that passes the least noise, and one only. It costs less than 1e-4 of flicker.
+ */
+#define NOISE 1e-6
+
+/* The part of flicker and noise that is left where the sharpest is looked for; at times the
+ * solver needs more to hold on to. */
+#define HARDLY 1e-3
+#define ENOUGH 0.05
+
+#define FLICKER_TOLERANCE 1e-7
+#define MOST_PROGRAMS     40
+
+/* Unknowns are the comb's numbers. The last limit is that of the last sharpness. */
+typedef struct program {
+    const wf_design_wish *wish;
+    wf_qp qp;
+    wf_qp_answer answer;
+    double row[WF_COMB_MOST]; /* of H at the last `at` */
+    double scanned_px;        /* mean over fx of sinc(width fx) squared */
+    int iterations, solved;
+} program;
+
+static double sinc(double z) {
+    return z == 0 ? 1 : sin(M_PI * z) / (M_PI * z);
+}
+
+/* ---- The program ---- */
+
+/* H(f) is this times the comb. */
+static void response_row(const program *p, double f, double *row) {
+    for (int k = 0; k < p->qp.n; k++)
+        row[k] = (k ? 2 : 1) * sinc(2 * f) * cos(2 * M_PI * f * k / WF_STAIRS_STEPS);
+}
+
+static void limit(program *p, const double *row, double sign, double most) {
+    double *to = p->qp.g + p->qp.m * p->qp.n;
+    for (int k = 0; k < p->qp.n; k++) to[k] = sign * row[k];
+    p->qp.h[p->qp.m++] = most;
+}
+
+/* Steps are the knots of the response to an edge, which is straight between them. What it is
+ * after the last is known. */
+static void limit_overshoot(program *p) {
+    double area[WF_COMB_MOST] = {0};
+    int steps = p->qp.n - 1 + WF_STAIRS_STEPS;
+    for (int i = 0; i < steps - 1; i++) {
+        for (int k = 0; k < p->qp.n; k++)
+            area[k] += wf_comb_share(i, k) / (2 * WF_STAIRS_STEPS);
+        limit(p, area, 1, 0.5 + p->wish->overshoot);
+        limit(p, area, -1, 0.5 + p->wish->overshoot);
+    }
+}
+
+/* Beyond half the pulses' frequency H is its own mirror image, upside down and weaker:
+ * H(8 - f) = -f / (8 - f) H(f). So what is held here, up to 4 cycles a line, is held there. */
+static void limit_response(program *p) {
+    double row[WF_COMB_MOST], close = 1 / (CLOSER * p->wish->support);
+    double alias = p->wish->alias, low = fmin(alias, REVERSAL);
+    for (double f = 0.25; f < WF_STAIRS_STEPS / 2;
+         f += f < STEEP ? close : 1 / (POINTS_A_LINE * p->wish->support)) {
+        double mirrored = REVERSAL * (WF_STAIRS_STEPS - f) / f;
+        response_row(p, f, row);
+        limit(p, row, -1, BETWEEN * (f > 0.5 ? low : REVERSAL));
+        if (f > 0.5) limit(p, row, 1, BETWEEN * fmin(alias, mirrored));
+    }
+}
+
+/* What is coarser than `at` is seen no less: else the least flicker would be had by leaving out
+ * all that lies between level light and `at`. */
+static void limit_sharpness(program *p, double at, double sharp) {
+    double lower[WF_COMB_MOST], step = 1 / (POINTS_A_LINE * p->wish->support);
+    response_row(p, at, p->row);
+    for (double f = step; f < at; f += step) {
+        response_row(p, f, lower);
+        for (int k = 0; k < p->qp.n; k++) lower[k] -= p->row[k];
+        limit(p, lower, -1, 0);
+    }
+    limit(p, p->row, -1, -sharp);
+}
+
+static void add_square(program *p, const double *row, double weight) {
+    int n = p->qp.n;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) p->qp.q[i * n + j] += 2 * weight * row[i] * row[j];
+}
+
+static double mean_across(double width) {
+    double sum = 0;
+    for (int i = 0; i < WF_FLICKER_POINTS; i++) {
+        double seen = sinc(width * wf_flicker_fx(i));
+        sum += seen * seen / WF_FLICKER_POINTS;
+    }
+    return sum;
+}
+
+static double weight_of(const program *p, int point) {
+    return p->scanned_px / 8 * pow(sin(M_PI * wf_flicker_fy(point)), 4) / WF_FLICKER_POINTS;
+}
+
+/* Flicker squared and noise, as filters/flicker.c and wf_stairs_power have them. */
+static void aim_at_flicker(program *p) {
+    double row[WF_COMB_MOST];
+    for (int i = 0; i < WF_FLICKER_POINTS; i++) {
+        response_row(p, wf_flicker_fy(i), row);
+        add_square(p, row, SCALE * weight_of(p, i));
+    }
+    for (int i = 0; i < p->qp.n - 1 + WF_STAIRS_STEPS; i++) {
+        for (int k = 0; k < p->qp.n; k++) row[k] = wf_comb_share(i, k) / 2;
+        add_square(p, row, SCALE * NOISE * 2 / WF_STAIRS_STEPS);
+    }
+}
+
+static bool make(program *p, const wf_design_wish *wish) {
+    int n = wf_comb_count(wish->support), points = (int)(4 * POINTS_A_LINE * wish->support);
+    *p = (program){.wish = wish, .scanned_px = mean_across(wish->width)};
+    int most = 2 * (n + WF_STAIRS_STEPS) + (4 + WF_DESIGN_SHARPS) * points;
+    if (!wf_qp_alloc(&p->qp, &p->answer, n, most)) return false;
+    p->qp.m = 0;
+    p->qp.b = 1;
+    for (int k = 0; k < n; k++) p->qp.a[k] = k ? 2 : 1;
+    limit_overshoot(p);
+    limit_response(p);
+    for (int i = 0; i < wish->sharps || i == 0; i++)
+        limit_sharpness(p, wish->at[i], wish->sharp[i]);
+    aim_at_flicker(p);
+    return true;
+}
+
+/* ---- Its answers ---- */
+
+/* The least flicker, of a sharpness where it is limited. */
+static wf_qp_end least_flicker(program *p, bool limited) {
+    p->qp.m -= limited ? 0 : 1;
+    wf_qp_end end = wf_qp_solve(&p->qp, &p->answer);
+    p->qp.m += limited ? 0 : 1;
+    p->iterations += p->answer.iterations;
+    p->solved++;
+    return end;
+}
+
+static double last_response(const program *p) {
+    double sum = 0;
+    for (int k = 0; k < p->qp.n; k++) sum += p->row[k] * p->answer.x[k];
+    return sum;
+}
+
+/* The most that the last sharpness can be. */
+static wf_qp_end sharpest(program *p) {
+    int n = p->qp.n;
+    wf_qp_end end = WF_QP_STUCK;
+    for (int k = 0; k < n; k++) p->qp.c[k] = -p->row[k];
+    for (double part = HARDLY; end == WF_QP_STUCK && part < ENOUGH; part *= 4) {
+        for (int i = 0; i < n * n; i++) p->qp.q[i] *= part;
+        end = least_flicker(p, false);
+        for (int i = 0; i < n * n; i++) p->qp.q[i] /= part;
+    }
+    memset(p->qp.c, 0, (size_t)n * sizeof *p->qp.c);
+    return end;
+}
+
+static double flicker_of(const program *p) {
+    double row[WF_COMB_MOST], sum = 0;
+    for (int i = 0; i < WF_FLICKER_POINTS; i++) {
+        double seen = 0;
+        response_row(p, wf_flicker_fy(i), row);
+        for (int k = 0; k < p->qp.n; k++) seen += row[k] * p->answer.x[k];
+        sum += weight_of(p, i) * seen * seen;
+    }
+    return sqrt(sum);
+}
+
+static bool refuse(char *why, size_t why_size, wf_qp_end end, const wf_design_wish *w) {
+    if (end == WF_QP_NO_MEMORY)
+        snprintf(why, why_size, "out of memory");
+    else
+        snprintf(why, why_size,
+                 "design: nothing that reaches %g lines keeps within overshoot=%g and "
+                 "alias=%g%s; give one of them more",
+                 w->support, w->overshoot, w->alias,
+                 w->sharps > 1 ? " and is that sharp elsewhere" : "");
+    return false;
+}
+
+static bool solve_for_sharpness(program *p, char *why, size_t why_size) {
+    const wf_design_wish *w = p->wish;
+    wf_qp_end end = least_flicker(p, true);
+    if (end == WF_QP_SOLVED) return true;
+    if (end == WF_QP_STUCK) end = sharpest(p);
+    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, w);
+    int last = w->sharps - 1;
+    snprintf(why, why_size,
+             "design: sharp=%g,at=%g is too sharp; %.4f is the most that support=%g, "
+             "overshoot=%g and alias=%g leave%s",
+             w->sharp[last], w->at[last], floor(1e4 * last_response(p)) / 1e4, w->support,
+             w->overshoot, w->alias, last ? ", beside the other sharpness" : "");
+    return false;
+}
+
+/* Flicker squared is convex in the sharpness and the limit's multiplier is its slope: Newton's
+ * steps, and halves where they leave what is known. */
+static bool approach(program *p, double low, double high) {
+    double target = p->wish->flicker - FLICKER_TOLERANCE / 2, sharp = (low + high) / 2;
+    while (p->solved < MOST_PROGRAMS) {
+        p->qp.h[p->qp.m - 1] = -sharp;
+        bool solved = least_flicker(p, true) == WF_QP_SOLVED;
+        double flicker = solved ? flicker_of(p) : INFINITY;
+        double slope = p->answer.z[p->qp.m - 1] / SCALE;
+        if (fabs(flicker - target) < FLICKER_TOLERANCE / 2) return true;
+        *(flicker < target ? &low : &high) = sharp;
+        sharp -= (flicker * flicker - target * target) / slope;
+        if (!(sharp > low && sharp < high)) sharp = (low + high) / 2;
+    }
+    return false;
+}
+
+static bool solve_for_flicker(program *p, char *why, size_t why_size) {
+    wf_qp_end end = least_flicker(p, false);
+    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, p->wish);
+    double least = flicker_of(p), low = last_response(p);
+    if (least > p->wish->flicker) {
+        snprintf(why, why_size, "design: flicker=%g is too little; %.4f is the least",
+                 p->wish->flicker, ceil(1e4 * least) / 1e4);
+        return false;
+    }
+    end = sharpest(p);
+    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, p->wish);
+    if (flicker_of(p) <= p->wish->flicker) return true;
+    if (approach(p, low, last_response(p))) return true;
+    snprintf(why, why_size, "design: no answer was found; another support may have one");
+    return false;
+}
+
+/* ---- The certificate ---- */
+
+static void certify(const program *p, wf_design *d) {
+    memcpy(d->comb, p->answer.x, (size_t)p->qp.n * sizeof *d->comb);
+    wf_stairs_init(&d->stairs, p->wish->support, d->comb);
+    d->flicker = flicker_of(p);
+    d->gap = p->answer.gap / SCALE;
+    d->iterations = p->iterations;
+    d->programs = p->solved;
+    for (int i = 1; i <= d->stairs.count; i++)
+        d->overshoot = fmax(d->overshoot, fabs(d->stairs.area[i]) - 0.5);
+    for (int i = 128; i <= WF_STAIRS_STEPS * 512; i++) {
+        double h = wf_stairs_response(&d->stairs, i / 512.0);
+        d->least = fmin(d->least, h);
+        if (i >= 256) d->alias = fmax(d->alias, fabs(h));
+    }
+    d->zero = fabs(wf_stairs_response(&d->stairs, 0.5));
+}
+
+bool wf_design_solve(const wf_design_wish *wish, wf_design *design, char *why,
+                     size_t why_size) {
+    program p;
+    *design = (wf_design){0};
+    if (!make(&p, wish)) return refuse(why, why_size, WF_QP_NO_MEMORY, wish);
+    bool solved = (wish->sharps ? solve_for_sharpness : solve_for_flicker)(&p, why, why_size);
+    if (solved) certify(&p, design);
+    wf_qp_release(&p.qp);
+    return solved;
+}
