@@ -9,7 +9,8 @@
 #include "convert/job.h"
 
 typedef struct filters_state {
-    const char *plot, *input_lines;
+    const char *plot, *frontier, *input_lines;
+    char joined[320]; /* "design" and what follows, from two arguments */
     bool json;
 } filters_state;
 
@@ -38,6 +39,8 @@ static weft_status ask(const filters_state *state, const weft_job *job, wf_filte
     query->tau = wf_ratio_given(job->temporal_width) ? wf_ratio_value(job->temporal_width) : -1;
     if (query->name && !wf_aperture_parse(query->name, &query->aperture, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (query->name && !wf_filters_design(query, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
     bool fits = !state->input_lines || (wf_ratio_parse(state->input_lines, &lines) &&
                                         lines.den == 1 && lines.num >= 1 && lines.num <= 16384);
     if (!fits)
@@ -51,6 +54,7 @@ static weft_status ask(const filters_state *state, const weft_job *job, wf_filte
 
 static weft_status answer(const filters_state *state, const wf_filters_query *query,
                           weft_error *err) {
+    if (state->frontier) return wf_filters_frontier(state->frontier, state->json, err);
     weft_status status = state->plot ? wf_filters_plot(query, state->plot, err) : WEFT_OK;
     if (status) return status;
     if (state->json) return wf_filters_print_json(query, err);
@@ -65,10 +69,13 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     weft_job *job = weft_job_new();
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = wf_cmd_parse(cmd, argc, argv, &state, job, &names, err);
-    if (!status && names > 1)
+    query.name = names ? argv[0] : NULL;
+    if (names == 2 && !strcmp(argv[0], "design")) {
+        snprintf(state.joined, sizeof state.joined, "design:%s", argv[1]);
+        query.name = state.joined;
+    } else if (!status && names > 1)
         status = wf_fail(err, WEFT_USAGE, "one aperture at a time, and '%.200s' is a second",
                          argv[1]);
-    query.name = names ? argv[0] : NULL;
     if (!status) status = ask(&state, job, &query, err);
     weft_job_free(job);
     return status ? status : answer(&state, &query, err);
@@ -82,6 +89,11 @@ static const wf_cmd_option options[] = {
      .offset = offsetof(filters_state, input_lines)},
     {{"plot", "FILE", NULL, "Draw the vertical response into a PNG file.", group},
      .offset = offsetof(filters_state, plot)},
+    {{"frontier", "FILE", NULL,
+      "Draw the least flicker there is against sharpness, and where the apertures lie, into a "
+      "PNG file; with --json print it too.",
+      group},
+     .offset = offsetof(filters_state, frontier)},
     {{"json", NULL, NULL, "Print JSON.", group}, .offset = offsetof(filters_state, json)},
 };
 
@@ -89,20 +101,36 @@ static const char *const job_options[] = {"raster", "temporal-width", NULL};
 
 const wf_cmd wf_cmd_filters = {
     .name = "filters",
-    .operands = "[NAME]",
+    .operands = "[NAME | design KEY=VALUE,..]",
     .summary = "apertures and their responses",
     .text = "Lists the apertures a field can look through, or shows the frequency response of\n"
             "one: along the lines, across them and in time, 1 (0 dB) at frequency 0.\n"
             "\n"
             "  weft filters shaped --plot shaped.png\n"
             "  weft filters box --input-lines 1080 --raster 525i\n"
-            "  weft filters mitchell:0,0.5 --json\n",
+            "  weft filters mitchell:0,0.5 --json\n"
+            "  weft filters design sharp=0.7,overshoot=0.08\n",
     .notes =
         "With --input-lines N the response of the weights themselves is added: the largest\n"
         "|sum W exp(2 pi i f y)| / sum W of any line of the raster, y being the centers of\n"
         "the input lines. box, notch and shaped vanish at 0.5 cycles/line, where alternate\n"
         "lines would flicker, when N is a multiple of half the raster's lines; otherwise\n"
-        "this tells what is left. Zero is -inf dB, and -400 in JSON, which has no infinity.\n",
+        "this tells what is left. Zero is -inf dB, and -400 in JSON, which has no infinity.\n"
+        "\n"
+        "'design' finds the vertical aperture with the least interline flicker (of a still "
+        "zone\n"
+        "plate) that is sharp enough, or the sharpest that flickers little enough:\n"
+        "\n"
+        "  sharp=S,at=F    the response at F cycles/line (0.25) and below is at least S;\n"
+        "                  more than once if need be\n"
+        "  flicker=R       instead: flicker of R at most, the sharpest at F\n"
+        "  support=N       lines to each side, whole or half, 1.5 to 6 (4)\n"
+        "  overshoot=P     of a step (0.05); alias=A: response beyond 0.5 (0.05)\n"
+        "  width=W         pixels across, 1 to 4 (1)\n"
+        "\n"
+        "As an aperture it is --aperture design:KEY=VALUE,.. 'crisp' and 'calm' are designs "
+        "with\n"
+        "names. Responses are never below -0.05 beyond 0.25, and zero at 0.5.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .job_options = job_options,

@@ -1,8 +1,10 @@
 #ifndef WF_CONVERT_CMD_FILTERS_H
 #define WF_CONVERT_CMD_FILTERS_H
 
+#include "convert/json.h"
 #include "convert/weft.h"
 #include "filters/aperture.h"
+#include "filters/design.h"
 #include "filters/raster.h"
 
 /* What 'weft filters' was asked. */
@@ -12,6 +14,9 @@ typedef struct wf_filters_query {
     double tau;       /* field periods; below 0: each aperture's own */
     int input_lines;  /* 0: closed forms only */
     wf_raster raster; /* what the input lines are stretched over */
+    bool designed;    /* and this is what it was designed for, and how it came out: */
+    wf_design_wish wish;
+    wf_design design;
 } wf_filters_query;
 
 /* An aperture of a kind, to stand for it in lists; name has room for 64 characters. */
@@ -28,5 +33,22 @@ weft_status wf_filters_print_json(const wf_filters_query *query, weft_error *err
 
 /* Draws the vertical responses into a PNG file. */
 weft_status wf_filters_plot(const wf_filters_query *query, const char *path, weft_error *err);
+
+/* What the sharpness of an aperture is told by: its response at so many cycles a line. */
+#define WF_FILTERS_SHARP_AT 0.25
+double wf_filters_sharpness(const wf_aperture *a);
+
+/* Designs the query's aperture again if it is a design, for its certificate. */
+bool wf_filters_design(wf_filters_query *query, char *why, size_t why_size);
+void wf_filters_print_design(const wf_filters_query *query);
+void wf_filters_add_design(wf_json *json, const wf_filters_query *query);
+
+/* Draws the least flicker there is against sharpness into a PNG file; prints the numbers. */
+weft_status wf_filters_frontier(const char *path, bool json, weft_error *err);
+
+/* Calls an entry point of the plot module, of the type wf_plot_png_fn, with a plot of its own.
+ */
+weft_status wf_filters_draw(const char *symbol, const void *plot, const char *path,
+                            weft_error *err);
 
 #endif

@@ -83,13 +83,14 @@ static weft_status write_piece(void *to, const void *data, size_t bytes, weft_er
     return wf_outfile_write(to, data, bytes, err);
 }
 
-static weft_status write_plot(const wf_plot *plot, const char *path, weft_error *err) {
-    void *symbol;
-    wf_plot_png_fn *draw;
+weft_status wf_filters_draw(const char *symbol, const void *plot, const char *path,
+                            weft_error *err) {
+    void *found;
+    weft_status (*draw)(const void *plot, wf_plot_write_fn *write, void *to, weft_error *err);
     wf_outfile *file;
-    weft_status status = wf_module_symbol("plot", "wf_plot_png", &symbol, err);
+    weft_status status = wf_module_symbol("plot", symbol, &found, err);
     if (status) return status;
-    memcpy(&draw, &symbol, sizeof draw);
+    memcpy(&draw, &found, sizeof draw);
     status = wf_outfile_open(path, true, &file, err);
     if (status) return status;
     status = draw(plot, write_piece, file, err);
@@ -116,5 +117,5 @@ weft_status wf_filters_plot(const wf_filters_query *query, const char *path, wef
         .curve_count = c.count,
         .curves = c.curve,
     };
-    return write_plot(&plot, path, err);
+    return wf_filters_draw("wf_plot_png", &plot, path, err);
 }

@@ -5,6 +5,7 @@
 #include "convert/cmd.h"
 #include "convert/cmd_filters.h"
 #include "convert/json.h"
+#include "filters/flicker.h"
 #include "filters/residue.h"
 
 #define STEPS   20   /* of the table, 0 to 1 cycle */
@@ -71,6 +72,10 @@ static void print_response(const wf_filters_query *q) {
         printf("\n%s at %.1f cycles/line: closed form %.2f dB, %d lines to %d leave %.2f dB\n",
                q->name, FLICKER, people_db(flicker_response(q, a)), q->input_lines,
                q->raster.lines, people_db(residue(q, a, FLICKER)));
+    if (q->designed)
+        wf_filters_print_design(q);
+    else
+        printf("\nflicker of the still zone plate: %.4f RMS\n", wf_aperture_flicker(a));
 }
 
 static void print_residues(const wf_filters_query *q) {
@@ -127,6 +132,8 @@ static void add_aperture(wf_json *json, const wf_filters_query *q, const char *n
     wf_json_real(json, "temporal_width", wf_filters_tau(q, a));
     wf_json_real(json, "reach_pixels", a->reach_u);
     wf_json_real(json, "reach_lines", a->reach_v);
+    wf_json_real(json, "flicker", wf_aperture_flicker(a));
+    wf_json_real(json, "sharpness", wf_filters_sharpness(a));
     wf_json_open(json, "parameters", '[');
     for (int p = 0; p < a->kind->parameters; p++) wf_json_real(json, NULL, a->parameter[p]);
     wf_json_close(json);
@@ -142,6 +149,7 @@ static void add_aperture(wf_json *json, const wf_filters_query *q, const char *n
 
 static void add_response(wf_json *json, const wf_filters_query *q) {
     add_aperture(json, q, q->name, &q->aperture);
+    if (q->designed) wf_filters_add_design(json, q);
     wf_json_open(json, "response", '[');
     for (int step = 0; step <= STEPS; step++) {
         response r = respond(q, step);

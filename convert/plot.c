@@ -4,8 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "convert/plot.h"
-#include "convert/plot_write.h"
+#include "convert/plot_draw.h"
 
 WEFT_API wf_plot_png_fn wf_plot_png;
 
@@ -18,17 +17,6 @@ enum {
     TOP = 150,
     BOTTOM = 84
 };
-
-typedef struct rgb {
-    double r, g, b;
-} rgb;
-
-static const rgb ink = {0.13, 0.15, 0.20}, faint = {0.45, 0.48, 0.54},
-                 grid = {0.90, 0.91, 0.93}, mark = {0.80, 0.20, 0.25}, paper = {1, 1, 1};
-
-/* Told apart by most color-blind readers (Okabe and Ito's set, darkened for thin lines). */
-static const rgb palette[] = {{0.00, 0.40, 0.66}, {0.84, 0.37, 0.00}, {0.00, 0.56, 0.42},
-                              {0.72, 0.40, 0.60}, {0.55, 0.45, 0.05}, {0.25, 0.63, 0.85}};
 
 /* One pair of axes: y runs from `low` at the bottom to `high` at the top. */
 typedef struct panel {
@@ -45,32 +33,6 @@ static double as_decibels(double value) {
     return 20 * log10(fmax(fabs(value), 1e-12));
 }
 
-static void set_color(cairo_t *cr, rgb c) {
-    cairo_set_source_rgb(cr, c.r, c.g, c.b);
-}
-
-/* ---- Text and lines ---- */
-
-/* Text with its point (across of its width, 0: left, 1: right) at x, its baseline at y. */
-static void text_at(cairo_t *cr, double x, double y, double across, const char *text) {
-    cairo_text_extents_t extents;
-    cairo_text_extents(cr, text, &extents);
-    cairo_move_to(cr, x - across * extents.x_advance, y);
-    cairo_show_text(cr, text);
-}
-
-static void font(cairo_t *cr, double size, bool bold) {
-    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cr, size);
-}
-
-static void segment(cairo_t *cr, double x0, double y0, double x1, double y1) {
-    cairo_move_to(cr, x0, y0);
-    cairo_line_to(cr, x1, y1);
-    cairo_stroke(cr);
-}
-
 static double pixel_x(const panel *p, const wf_plot *plot, double x) {
     return p->x + p->width * x / plot->x_end;
 }
@@ -83,44 +45,44 @@ static double pixel_y(const panel *p, double y) {
 
 static void draw_grid(cairo_t *cr, const panel *p, const wf_plot *plot) {
     char tick[32];
-    font(cr, 17, false);
+    wf_font(cr, 17, false);
     cairo_set_line_width(cr, 1);
     for (int i = 0; i <= 10; i++) {
         double x = round(pixel_x(p, plot, plot->x_end * i / 10)) + 0.5;
-        set_color(cr, grid);
-        segment(cr, x, p->y, x, p->y + p->height);
+        wf_set_color(cr, wf_grid);
+        wf_segment(cr, x, p->y, x, p->y + p->height);
         snprintf(tick, sizeof tick, "%.1f", plot->x_end * i / 10);
-        set_color(cr, faint);
-        text_at(cr, x, p->y + p->height + 26, 0.5, tick);
+        wf_set_color(cr, wf_faint);
+        wf_text_at(cr, x, p->y + p->height + 26, 0.5, tick);
     }
     int steps = (int)lround((p->high - p->low) / p->step);
     for (int i = 0; i <= steps; i++) {
         double value = p->low + i * p->step, y = round(pixel_y(p, value)) + 0.5;
-        set_color(cr, fabs(value) < 1e-9 ? faint : grid);
-        segment(cr, p->x, y, p->x + p->width, y);
+        wf_set_color(cr, fabs(value) < 1e-9 ? wf_faint : wf_grid);
+        wf_segment(cr, p->x, y, p->x + p->width, y);
         snprintf(tick, sizeof tick, p->tick_format, fabs(value) < 1e-9 ? 0 : value);
-        set_color(cr, faint);
-        text_at(cr, p->x - 12, y + 6, 1, tick);
+        wf_set_color(cr, wf_faint);
+        wf_text_at(cr, p->x - 12, y + 6, 1, tick);
     }
-    set_color(cr, ink);
-    font(cr, 18, true);
-    text_at(cr, p->x, p->y - 16, 0, p->label);
+    wf_set_color(cr, wf_ink);
+    wf_font(cr, 18, true);
+    wf_text_at(cr, p->x, p->y - 16, 0, p->label);
 }
 
 static void draw_mark(cairo_t *cr, const panel *p, const wf_plot *plot) {
     static const double dashes[] = {3, 5};
     double x = round(pixel_x(p, plot, plot->x_mark)) + 0.5;
-    set_color(cr, mark);
+    wf_set_color(cr, wf_mark);
     cairo_set_line_width(cr, 1.5);
     cairo_set_dash(cr, dashes, 2, 0);
-    segment(cr, x, p->y, x, p->y + p->height);
+    wf_segment(cr, x, p->y, x, p->y + p->height);
     cairo_set_dash(cr, NULL, 0, 0);
 }
 
 static void label_mark(cairo_t *cr, const panel *p, const wf_plot *plot) {
-    set_color(cr, mark);
-    font(cr, 16, false);
-    text_at(cr, pixel_x(p, plot, plot->x_mark), p->y - 12, 0.5, plot->mark_label);
+    wf_set_color(cr, wf_mark);
+    wf_font(cr, 16, false);
+    wf_text_at(cr, pixel_x(p, plot, plot->x_mark), p->y - 12, 0.5, plot->mark_label);
 }
 
 static void draw_curve(cairo_t *cr, const panel *p, const wf_plot *plot,
@@ -136,7 +98,7 @@ static void draw_curve(cairo_t *cr, const panel *p, const wf_plot *plot,
 /* Color and dashes of curve i. */
 static void pen(cairo_t *cr, const wf_plot *plot, size_t i) {
     static const double dashes[] = {9, 6};
-    set_color(cr, palette[i % (sizeof palette / sizeof *palette)]);
+    wf_set_color(cr, wf_palette[i % WF_COLORS]);
     cairo_set_line_width(cr, 2.75);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_dash(cr, dashes, plot->curves[i].dashed ? 2 : 0, 0);
@@ -159,12 +121,7 @@ static void draw_dot(cairo_t *cr, const panel *p, const wf_plot *plot, size_t i)
     double y = p->scale(plot->curves[i].value[lround(at)]);
     pen(cr, plot, i);
     cairo_set_dash(cr, NULL, 0, 0);
-    cairo_new_path(cr);
-    cairo_arc(cr, pixel_x(p, plot, plot->x_mark), pixel_y(p, fmax(y, p->low)), 6, 0, 2 * M_PI);
-    cairo_fill_preserve(cr);
-    set_color(cr, paper);
-    cairo_set_line_width(cr, 2);
-    cairo_stroke(cr);
+    wf_dot(cr, pixel_x(p, plot, plot->x_mark), pixel_y(p, fmax(y, p->low)), 6);
 }
 
 static void draw_panel(cairo_t *cr, const panel *p, const wf_plot *plot) {
@@ -175,33 +132,30 @@ static void draw_panel(cairo_t *cr, const panel *p, const wf_plot *plot) {
 
 static double widest_name(cairo_t *cr, const wf_plot *plot) {
     double widest = 0;
-    for (size_t i = 0; i < plot->curve_count; i++) {
-        cairo_text_extents_t extents;
-        cairo_text_extents(cr, plot->curves[i].name, &extents);
-        widest = fmax(widest, extents.x_advance);
-    }
+    for (size_t i = 0; i < plot->curve_count; i++)
+        widest = fmax(widest, wf_text_width(cr, plot->curves[i].name));
     return widest;
 }
 
 /* In the upper panel's right corner, where responses are low. */
 static void draw_legend(cairo_t *cr, const panel *p, const wf_plot *plot) {
-    font(cr, 18, false);
+    wf_font(cr, 18, false);
     double row = 30, width = widest_name(cr, plot) + 84,
            height = row * (double)plot->curve_count + 20;
     double x = p->x + p->width - width - 14, y = p->y + 14;
     cairo_rectangle(cr, x + 0.5, y + 0.5, width, height);
-    cairo_set_source_rgba(cr, paper.r, paper.g, paper.b, 0.92);
+    cairo_set_source_rgba(cr, wf_paper.r, wf_paper.g, wf_paper.b, 0.92);
     cairo_fill_preserve(cr);
-    set_color(cr, grid);
+    wf_set_color(cr, wf_grid);
     cairo_set_line_width(cr, 1);
     cairo_stroke(cr);
     for (size_t i = 0; i < plot->curve_count; i++) {
         double middle = y + 10 + row * ((double)i + 0.5);
         pen(cr, plot, i);
-        segment(cr, x + 16, middle, x + 56, middle);
+        wf_segment(cr, x + 16, middle, x + 56, middle);
         cairo_set_dash(cr, NULL, 0, 0);
-        set_color(cr, ink);
-        text_at(cr, x + 68, middle + 6, 0, plot->curves[i].name);
+        wf_set_color(cr, wf_ink);
+        wf_text_at(cr, x + 68, middle + 6, 0, plot->curves[i].name);
     }
 }
 
@@ -222,60 +176,26 @@ static void draw(cairo_t *cr, const wf_plot *plot) {
                       10,   "Response, dB",           "%.0f", as_decibels};
     fit_panel(&values, plot);
     fit_panel(&decibels, plot);
-    set_color(cr, paper);
-    cairo_paint(cr);
-    set_color(cr, ink);
-    font(cr, 30, true);
-    text_at(cr, LEFT, 54, 0, plot->title);
-    set_color(cr, faint);
-    font(cr, 19, false);
-    text_at(cr, LEFT, 86, 0, plot->subtitle);
+    wf_set_color(cr, wf_ink);
+    wf_font(cr, 30, true);
+    wf_text_at(cr, LEFT, 54, 0, plot->title);
+    wf_set_color(cr, wf_faint);
+    wf_font(cr, 19, false);
+    wf_text_at(cr, LEFT, 86, 0, plot->subtitle);
     draw_panel(cr, &values, plot);
     label_mark(cr, &values, plot);
     draw_panel(cr, &decibels, plot);
     for (size_t i = 0; i < plot->curve_count; i++)
         if (plot->curves[i].dashed) draw_dot(cr, &decibels, plot, i);
     draw_legend(cr, &values, plot);
-    set_color(cr, ink);
-    font(cr, 18, false);
-    text_at(cr, LEFT + width / 2, HEIGHT - 26, 0.5, plot->x_label);
-}
-
-/* ---- Writing ---- */
-
-typedef struct receiver {
-    wf_plot_write_fn *write;
-    void *to;
-    weft_error *err;
-    weft_status status; /* the first failure */
-} receiver;
-
-static cairo_status_t receive(void *closure, const unsigned char *data, unsigned length) {
-    receiver *r = closure;
-    if (!r->status) r->status = r->write(r->to, data, length, r->err);
-    return r->status ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
-}
-
-weft_status wf_plot_write_png(cairo_surface_t *surface, wf_plot_write_fn *write, void *to,
-                              weft_error *err) {
-    receiver r = {.write = write, .to = to, .err = err};
-    cairo_status_t status = cairo_surface_write_to_png_stream(surface, receive, &r);
-    if (r.status) return r.status;
-    if (status)
-        return wf_fail(err, WEFT_FAILED, "the plot: %s", cairo_status_to_string(status));
-    return WEFT_OK;
+    wf_set_color(cr, wf_ink);
+    wf_font(cr, 18, false);
+    wf_text_at(cr, LEFT + width / 2, HEIGHT - 26, 0.5, plot->x_label);
 }
 
 weft_status wf_plot_png(const wf_plot *plot, wf_plot_write_fn *write, void *to,
                         weft_error *err) {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
-    cairo_t *cr = cairo_create(surface);
-    draw(cr, plot);
-    cairo_status_t drawn = cairo_status(cr);
-    weft_status status =
-        drawn ? wf_fail(err, WEFT_FAILED, "the plot: %s", cairo_status_to_string(drawn))
-              : wf_plot_write_png(surface, write, to, err);
-    cairo_destroy(cr);
-    cairo_surface_destroy(surface);
-    return status;
+    wf_canvas canvas = wf_canvas_new(WIDTH, HEIGHT);
+    draw(canvas.cr, plot);
+    return wf_canvas_finish(&canvas, write, to, err);
 }

@@ -19,12 +19,42 @@ typedef struct wf_plot {
     const wf_plot_curve *curves;
 } wf_plot;
 
+/* Points (x, y), joined in their order. */
+typedef struct wf_xy_curve {
+    const char *name; /* for the legend */
+    const double *x, *y;
+    size_t points;
+    bool dashed;
+} wf_xy_curve;
+
+/* A point with its name beside it. */
+typedef struct wf_xy_mark {
+    char name[96];
+    double x, y;
+    bool other; /* of another kind: in another color */
+} wf_xy_mark;
+
+/* Curves and marks over two axes, whose ranges are what is drawn and a little more. */
+typedef struct wf_plot_xy {
+    const char *title, *subtitle;
+    const char *x_label, *y_label;
+    double x_step, y_step; /* of the grid */
+    const char *x_format, *y_format;
+    size_t curve_count, mark_count;
+    const wf_xy_curve *curves;
+    const wf_xy_mark *marks;
+} wf_plot_xy;
+
 /* Where the picture goes, piece by piece. */
 typedef weft_status wf_plot_write_fn(void *to, const void *data, size_t bytes, weft_error *err);
 
-/* wf_plot_png, the entry point of the plot module: draws and writes a PNG. */
+/* wf_plot_png and wf_plot_xy_png, the entry points of the plot module: they draw and write a
+ * PNG.
+ */
 typedef weft_status wf_plot_png_fn(const wf_plot *plot, wf_plot_write_fn *write, void *to,
                                    weft_error *err);
+typedef weft_status wf_plot_xy_png_fn(const wf_plot_xy *plot, wf_plot_write_fn *write, void *to,
+                                      weft_error *err);
 
 /* How strong something is where in a picture. */
 typedef struct wf_plot_map {

@@ -260,6 +260,7 @@ static void certify(const program *p, wf_design *d) {
     wf_stairs_init(&d->stairs, p->wish->support, d->comb);
     d->flicker = flicker_of(p);
     d->gap = p->answer.gap / SCALE;
+    d->slack = NOISE * wf_stairs_power(&d->stairs);
     d->iterations = p->iterations;
     d->programs = p->solved;
     for (int i = 1; i <= d->stairs.count; i++)

@@ -7,6 +7,7 @@
 #include "filters/stairs.h"
 
 #define WF_DESIGN_SHARPS 4
+#define WF_DESIGN_ALIAS  0.05 /* unless told */
 
 /* The vertical apertures there are to choose from, and what is asked of the one that is chosen:
  * either the least flicker for responses that are sharp enough, or the sharpest for a flicker.
@@ -31,7 +32,8 @@ typedef struct wf_design {
     double least;     /* H beyond 1/4 cycle a line */
     double alias;     /* |H| beyond 1/2 */
     double zero;      /* |H| at 1/2 */
-    double gap; /* of flicker squared: nothing that was allowed has less by more than this */
+    double gap;       /* of flicker squared: nothing allowed has less by more than this .. */
+    double slack;     /* .. and this, unless it passes twice the noise (wf_stairs_power) */
     int iterations, programs; /* of the solver; programs solved on the way */
 } wf_design;
 

@@ -89,7 +89,8 @@ static bool check(const wf_design_wish *wish, char *why, size_t why_size) {
 
 bool wf_design_parse(const char *text, wf_design_wish *wish, char *why, size_t why_size) {
     char copy[256];
-    *wish = (wf_design_wish){.support = 4, .overshoot = 0.05, .alias = 0.05, .width = 1};
+    *wish =
+        (wf_design_wish){.support = 4, .overshoot = 0.05, .alias = WF_DESIGN_ALIAS, .width = 1};
     for (int i = 0; i < WF_DESIGN_SHARPS; i++) wish->at[i] = 0.25;
     if (strlen(text) >= sizeof copy) {
         snprintf(why, why_size, "design: more than %zu characters", sizeof copy - 1);
