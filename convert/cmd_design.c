@@ -19,7 +19,7 @@ bool wf_filters_design(wf_filters_query *query, char *why, size_t why_size) {
 /* ---- For people ---- */
 
 static void print_wish(const wf_design_wish *w) {
-    printf("\nDesigned: %g lines to each side, %g pixels wide; overshoot at most %.4g %%, "
+    printf("\nDesigned: %g lines to each side, %g px wide; overshoot at most %.4g %%, "
            "aliases at most %g;\n",
            w->support, w->width, 100 * w->overshoot, w->alias);
     if (w->flicker > 0)

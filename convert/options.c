@@ -263,7 +263,8 @@ static const option_row rows[] = {
         "What to make: a name that 'weft rasters' lists, or WxH@RATE(i|p|psf).", set_raster,
         AT(raster), INITIAL),
     ROW(shape, "aperture", "NAME", "shaped",
-        "How a pixel looks at the picture: one of those that 'weft filters' lists.",
+        "How a pixel looks at the picture: one of those that 'weft filters' lists, or "
+        "design:KEY=VALUE,.. to have one made ('weft filters --help').",
         set_aperture, AT(aperture), INITIAL),
     ROW(shape, "fit", "stretch|crop|pad", "stretch",
         "What to do with an input of another shape: stretch it, or scale it evenly and crop or "

@@ -91,7 +91,7 @@ static void limit_response(program *p) {
 /* What is coarser than `at` is seen no less: else the least flicker would be had by leaving out
  * all that lies between level light and `at`. */
 static void limit_sharpness(program *p, double at, double sharp) {
-    double lower[WF_COMB_MOST], step = 1 / (POINTS_A_LINE * p->wish->support);
+    double lower[WF_COMB_MOST], step = 1 / (CLOSER * p->wish->support);
     response_row(p, at, p->row);
     for (double f = step; f < at; f += step) {
         response_row(p, f, lower);

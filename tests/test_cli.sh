@@ -122,7 +122,7 @@ json() { python3 -m json.tool <out >/dev/null; }
 value() { python3 -c "import json, math, sys
 d = json.load(open('out')); sys.exit(not ($1))" 2>/dev/null || { echo "not so: $1"; cat out; return 1; }; }
 
-for name in line rotated box ccd notch shaped diamond mitchell:B,C; do
+for name in line rotated box ccd notch shaped diamond mitchell:B,C crisp calm design:KEY=VALUE; do
     check "$name is listed" prints "$name" filters
 done
 # At half a cycle a line, as resampling.md has it in whole decibels.
@@ -130,14 +130,15 @@ check "box, 1080 to 486" prints "leave -27.75 dB" filters box --input-lines 1080
 check "notch, 1080 to 486" prints "leave -64.98 dB" filters notch --input-lines 1080
 check "box, 1440 to 1080" prints "leave -19.10 dB" filters box --input-lines 1440 --raster 1080i50
 check "notch, 1440 to 1080" prints "leave -50.59 dB" filters notch --input-lines 1440 --raster 1080i50
-for name in box notch shaped; do
+for name in box notch shaped crisp calm; do
     check "$name, 972 to 486" prints "leave -inf dB" filters $name --input-lines 972
     exits 0 filters $name --input-lines 972 --json
     check "$name, 972 to 486, JSON" value "d['residue']['weights'] == 0 and d['residue']['weights_db'] < -300"
 done
 check "list as JSON" exits 0 filters --json
 check "list is JSON" json
-check "eight apertures" value "len(d['apertures']) == 8"
+check "eleven apertures" value "len(d['apertures']) == 11"
+check "their flicker" value "{a['name']: round(a['flicker'], 3) for a in d['apertures']}['box'] == 0.063"
 check "list with residues" exits 0 filters --json --input-lines 1080
 check "residues" value "all('weights_db' in a['residue'] for a in d['apertures'])"
 check "one as JSON" exits 0 filters mitchell:0,0.5 --json --temporal-width 1 --raster 625i --input-lines 1000
@@ -148,11 +149,37 @@ check "a width" exits 0 filters line --json --temporal-width 2
 check "its response" value "all(abs(r['temporal'] - (math.sin(2 * math.pi * r['frequency']) /
     (2 * math.pi * r['frequency']) if r['frequency'] else 1)) < 1e-8 for r in d['response'])"
 
+# Designs, and their certificates.
+check "design" prints "flicker of the still zone plate" filters design sharp=0.7,overshoot=0.08
+check "design in one word" prints "flicker at most 0.05" filters design:flicker=0.05
+check "a named design" prints "at least 0.802 at 0.25 cycles/line" filters crisp
+check "design as JSON" exits 0 filters design sharp=0.95,at=0.125,sharp=0.49 --json
+check "design is JSON" json
+check "certificate" value "abs(d['design']['response_quarter'] - 0.49) < 1e-3 and d['design']['response_eighth'] > 0.949 and
+    d['design']['flicker'] < 0.0415 and d['design']['overshoot'] < 0.0501 and d['design']['gap'] < 1e-8 and
+    d['design']['response_half'] < 1e-12 and d['design']['least_beyond_quarter'] > -0.0501 and
+    abs(2 * sum(d['design']['kernel']) * d['design']['step_lines'] - 1) < 1e-9 and d['reach_lines'] == 4"
+check "unknown key" refuses "did you mean support?" filters design suport=3
+check "too sharp" refuses "is the most that support=4" filters design sharp=1
+check "too calm" refuses "is the least" convert --aperture design:flicker=0.001 in.exr -o x.y4m
+check "nothing asked" refuses "design:sharp=0.7" filters design
+
 # png FILE: a whole PNG.
 png() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] && tail -c 8 "$1" | grep -q IEND; }
 
 check "plot" exits 0 filters shaped --input-lines 1080 --plot shaped.png
 check "plot is a PNG" png shaped.png
+check "plot of a design" exits 0 filters design sharp=0.7 --plot design.png
+check "plot of a design is a PNG" png design.png
+check "frontier" exits 0 filters --frontier frontier.png --json
+check "frontier is a PNG" png frontier.png
+check "frontier is JSON" json
+check "frontier's figures" value "len(d['curves']) == 4 and {'crisp', 'ffmpeg linear', 'ffmpeg complex'} <=
+    {p['name'] for p in d['points']} and all(a <= b + 1e-9 for c in d['curves'] for a, b in
+    zip(c['flicker'], c['flicker'][1:]))"
+check "nothing named lies above the frontier of its width" value "all(p['flicker'] > max([f for f, s in
+    zip(c['flicker'], c['sharpness']) if s <= p['sharpness']]) - 1e-6 for c in [d['curves'][2]]
+    for p in d['points'] if p['name'] not in ('crisp', 'shaped'))"
 check "plot of all" exits 0 filters --plot all.png
 check "plot of all is a PNG" png all.png
 check "plots differ" test "$(cksum <shaped.png)" != "$(cksum <all.png)"
