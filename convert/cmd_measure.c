@@ -9,11 +9,13 @@
 #include "convert/module.h"
 #include "convert/outfile.h"
 #include "convert/plot.h"
+#include "convert/progress.h"
 
 #define MOST_LIMITS 32
 
 typedef struct measure_state {
-    const char *against, *chart, *display, *heatmap, *raster_name;
+    const char *against, *chart, *display, *heatmap, *raster_name, *progress;
+    wf_meter meter;
     wf_cmd_list limits;
     bool json;
     wf_raster raster;
@@ -72,8 +74,11 @@ static weft_status read_raster(measure_state *s, weft_error *err) {
 }
 
 static weft_status read_state(measure_state *s, int files, weft_error *err) {
-    s->options = (wf_measure_options){
-        .against = s->against, .want_heat = s->heatmap, .max_memory_bytes = (size_t)2 << 30};
+    s->options = (wf_measure_options){.against = s->against,
+                                      .want_heat = s->heatmap,
+                                      .max_memory_bytes = (size_t)2 << 30,
+                                      .progress = wf_meter_update,
+                                      .progress_user = &s->meter};
     if (!files)
         return wf_fail(
             err, WEFT_USAGE,
@@ -81,6 +86,11 @@ static weft_status read_state(measure_state *s, int files, weft_error *err) {
             "for Y4M on standard input");
     if (files > 1 && s->heatmap)
         return wf_fail(err, WEFT_USAGE, "--heatmap draws one file, and %d are given", files);
+    if (!wf_meter_init(&s->meter, s->progress))
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
+            s->progress);
     weft_status status = read_chart(s->chart, &s->options, err);
     if (!status) status = read_display(s->display, &s->options, err);
     if (!status) status = read_raster(s, err);
@@ -146,10 +156,11 @@ static weft_status check_limits(const measure_state *s, const char *path, const 
 }
 
 /* The trouble with one file does not keep the others from being measured. */
-static weft_status measure_one(const measure_state *s, const char *path, wf_json *json) {
+static weft_status measure_one(measure_state *s, const char *path, wf_json *json) {
     wf_figures figures;
     weft_error trouble = {""};
     weft_status status = wf_measure(path, &s->options, &figures, &trouble);
+    wf_meter_clear(&s->meter);
     if (!status && s->heatmap) status = draw_heat(s, path, &figures, &trouble);
     if (json)
         wf_measure_json(json, path, &figures, status ? trouble.text : NULL);
@@ -162,8 +173,7 @@ static weft_status measure_one(const measure_state *s, const char *path, wf_json
     return status;
 }
 
-static weft_status measure_all(const measure_state *s, int count, char **paths,
-                               weft_error *err) {
+static weft_status measure_all(measure_state *s, int count, char **paths, weft_error *err) {
     wf_json json = {0};
     weft_status worst = WEFT_OK;
     if (s->json && count > 1) wf_json_open(&json, NULL, '[');
@@ -216,6 +226,9 @@ static const wf_cmd_option options[] = {
      .repeats = true},
     {{"heatmap", "FILE", NULL, "Draw where it flickers into a PNG file.", group},
      .offset = STATE(heatmap)},
+    {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
+      "How to show progress, on standard error.", group},
+     .offset = STATE(progress)},
     {{"json", NULL, NULL, "Print JSON: an object, an array of several files.", group},
      .offset = STATE(json)},
 };

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/frames.h"
 #include "convert/measure_kinds.h"
 
 /* ---- The figures ---- */
@@ -58,6 +59,7 @@ typedef struct measuring {
     void *state[MEASUREMENTS];
     wf_difference *difference;
     int64_t frames;
+    double began_s;
 } measuring;
 
 static weft_status check_lines(const char *path, const wf_video_info *info, weft_error *err) {
@@ -119,6 +121,15 @@ static wf_signal *signal_of(const measuring *m, int64_t frame) {
     return frame < 0 ? NULL : m->signal[frame % 2];
 }
 
+static void show_progress(const measuring *m) {
+    int64_t done = m->frames + 1, total = wf_video_info_of(m->video)->frames;
+    const weft_progress progress = {.frames_done = done,
+                                    .frames_total = total > done ? total : done,
+                                    .seconds = wf_now_s() - m->began_s,
+                                    .stage = "measure"};
+    if (m->options->progress) m->options->progress(&progress, m->options->progress_user);
+}
+
 static weft_status measure_frames(measuring *m, weft_error *err) {
     for (;; m->frames++) {
         const wf_video_frame *frame;
@@ -129,6 +140,7 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
         wf_signals_take(m->signals, frame, signal);
         for (size_t i = 0; i < MEASUREMENTS; i++)
             measurements[i]->add(m->state[i], signal, signal_of(m, m->frames - 1));
+        show_progress(m);
     }
 }
 
@@ -155,7 +167,7 @@ static void end(measuring *m) {
 
 weft_status wf_measure(const char *path, const wf_measure_options *options, wf_figures *figures,
                        weft_error *err) {
-    measuring m = {.path = path, .options = options};
+    measuring m = {.path = path, .options = options, .began_s = wf_now_s()};
     *figures = (wf_figures){.frames = 0};
     for (size_t i = 0; wf_figure_at(i); i++) {
         const double none = NAN;

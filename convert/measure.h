@@ -26,6 +26,8 @@ typedef struct wf_measure_options {
     double grating; /* cycles a frame line */
     bool want_heat;
     size_t max_memory_bytes;
+    weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
+    void *progress_user;
 } wf_measure_options;
 
 /* One plane of one kind of lines, against the reference. */
