@@ -1,0 +1,77 @@
+"""The page: sections, figures, the table, and one file of HTML."""
+import html
+import os
+
+from pictures import uri
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def asset(name):
+    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+        return file.read()
+
+
+def picture(data, alt, kind="", note=None, shape=None):
+    """An image of the page. `shape` is its width over its height, where pixels are not square."""
+    style = f' style="aspect-ratio:{shape:.4f}"' if shape else ""
+    image = f'<img class="{kind}" src="{uri(data)}" alt="{html.escape(alt, quote=True)}"{style}>'
+    return f'<div class="picture">{image}' + (f"<p>{note}</p>" if note else "") + "</div>"
+
+
+def side_by_side(*items, columns=None):
+    return f'<div class="row n{columns or len(items)}">{"".join(items)}</div>'
+
+
+def figure(name, body, caption):
+    return f'<figure id="{name}">{body}<figcaption>{caption}</figcaption></figure>'
+
+
+def table(head, rows):
+    cells = "".join(f"<th scope=col>{cell}</th>" for cell in head)
+    body = "".join("<tr>" + f"<th scope=row>{row[0]}</th>" + "".join(
+        f"<td>{cell}</td>" for cell in row[1:]) + "</tr>" for row in rows)
+    return (f'<div class="scroll"><table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody>'
+            "</table></div>")
+
+
+class Report:
+    """What the experiments hand in: sections of prose and figures, and rows of the table."""
+
+    def __init__(self):
+        self.sections, self.rows = [], []
+
+    def section(self, name, title, *parts):
+        """Parts that do not start with a tag are paragraphs."""
+        body = "".join(part if part.startswith("<") else f"<p>{part}</p>" for part in parts)
+        self.sections.append((name, title, body))
+
+    def row(self, where, claim, measured, agrees, why=""):
+        """`agrees` is what a comparison of measured figures gave; None where it is a matter of
+        taste or cannot be told."""
+        self.rows.append((where, claim, measured, agrees, why))
+
+    def verdicts(self):
+        words = {True: ("agrees", "agrees"), False: ("differs", "differs"), None: ("open", "open")}
+        out = []
+        for where, claim, measured, agrees, why in self.rows:
+            kind, word = words[agrees]
+            why = f'<span class="why">{why}</span>' if why else ""
+            out.append(f'<tr><td class="where">{where}</td><td>{claim}</td>'
+                       f'<td class="measured">{measured}</td>'
+                       f'<td class="verdict {kind}"><b>{word}</b>{why}</td></tr>')
+        return ('<div class="scroll"><table class="claims"><thead><tr><th scope=col>Where</th>'
+                "<th scope=col>The paper says</th><th scope=col>Measured here</th>"
+                f'<th scope=col>Verdict</th></tr></thead><tbody>{"".join(out)}</tbody></table></div>')
+
+    def contents(self):
+        return "".join(f'<li><a href="#{name}">{title}</a></li>' for name, title, _ in self.sections)
+
+    def html(self, opening, closing, player_data):
+        sections = "".join(f'<section id="{name}" aria-labelledby="{name}-title">'
+                           f'<h2 id="{name}-title">{title}</h2>{body}</section>'
+                           for name, title, body in self.sections)
+        return asset("page.html").format(style=asset("page.css"), opening=opening,
+                                         contents=self.contents(), sections=sections,
+                                         closing=closing, data=player_data,
+                                         script=asset("player.js"))

@@ -1,0 +1,130 @@
+"""PNG and EXR files from lists of numbers, and the ways pictures are cut and coloured."""
+import base64
+import struct
+import zlib
+
+from program import GAMMA
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(rows, color=False, palette=None, filtered=False):
+    """A PNG of 8 bits. Rows are bytes: grey, R G B, or indices of a palette of R G B triples."""
+    step = 3 if color else 1
+    kind = 2 if color else 3 if palette else 0
+    head = struct.pack(">IIBBBBB", len(rows[0]) // step, len(rows), 8, kind, 0, 0, 0)
+    if filtered:  # each byte less the one a pixel before it
+        body = b"".join(b"\1" + row[:step] + bytes((b - a) & 255 for a, b in zip(row, row[step:]))
+                        for row in rows)
+    else:
+        body = b"".join(b"\0" + row for row in rows)
+    parts = [b"\x89PNG\r\n\x1a\n", chunk(b"IHDR", head)]
+    if palette:
+        parts.append(chunk(b"PLTE", bytes(value for entry in palette for value in entry)))
+    return b"".join(parts + [chunk(b"IDAT", zlib.compress(body, 9)), chunk(b"IEND", b"")])
+
+
+def uri(data, kind="image/png"):
+    return f"data:{kind};base64," + base64.b64encode(data).decode()
+
+
+# ---- From video ----
+
+GREY = {}
+
+
+def grey_table(bits):
+    if bits not in GREY:
+        step = 1 << (bits - 8)
+        GREY[bits] = bytes(min(255, max(0, round((code / step - 16) * 255 / 219)))
+                           for code in range(1 << bits))
+    return GREY[bits]
+
+
+def grey_rows(clip, frame, lines, x0=0, x1=None):
+    """The luma of those lines as bytes, black 0 and white 255, as the display is given it."""
+    table, luma = grey_table(clip.bits), clip.frames[frame][0]
+    x1 = clip.width if x1 is None else x1
+    return [bytes(table[code] for code in luma[y * clip.width + x0:y * clip.width + x1])
+            for y in lines]
+
+
+def color_rows(clip, frame, lines, x0=0, x1=None):
+    """R'G'B' bytes of those lines, by the matrix of Rec. 601. The clip has 8 bits."""
+    y_plane, u_plane, v_plane = clip.frames[frame]
+    x1 = clip.width if x1 is None else x1
+    luma = [(code - 16) * 255 / 219 for code in range(256)]
+    red, blue = [[k * (code - 128) * 255 / 224 for code in range(256)] for k in (1.402, 1.772)]
+    green_u, green_v = [[k * (code - 128) * 255 / 224 for code in range(256)]
+                        for k in (-0.344136, -0.714136)]
+    rows = []
+    for line in lines:
+        row, at = bytearray(), line * clip.width
+        for y, u, v in zip(y_plane[at + x0:at + x1], u_plane[at + x0:at + x1],
+                           v_plane[at + x0:at + x1]):
+            y = luma[y]
+            for value in (y + red[v], y + green_u[u] + green_v[v], y + blue[u]):
+                row.append(0 if value < 0 else 255 if value > 255 else int(value + 0.5))
+        rows.append(bytes(row))
+    return rows
+
+
+def enlarge(rows, across, down, step=1):
+    """Every pixel a rectangle."""
+    out = []
+    for row in rows:
+        wide = b"".join(row[k:k + step] * across for k in range(0, len(row), step))
+        out += [wide] * down
+    return out
+
+
+def display_bytes(rows, top=1.0):
+    """Light, 0 to `top`, as bytes for the display."""
+    scale = 1 / top if top else 0
+    return [bytes(min(255, int(255 * max(0.0, value * scale) ** (1 / GAMMA) + 0.5))
+                  for value in row) for row in rows]
+
+
+# ---- Heat maps ----
+
+def ramp():
+    """256 colours from near black over violet and orange to pale yellow."""
+    stops = [(0, (10, 8, 28)), (70, (74, 24, 110)), (140, (190, 54, 84)), (205, (249, 142, 40)),
+             (255, (252, 250, 190))]
+    colors = []
+    for (a, low), (b, high) in zip(stops, stops[1:]):
+        colors += [tuple(round(p + (q - p) * (k - a) / (b - a)) for p, q in zip(low, high))
+                   for k in range(a, b)]
+    return colors + [stops[-1][1]]
+
+
+def heat(rows, low, high):
+    """A PNG of numbers between low and high."""
+    scale = 255 / (high - low)
+    return png([bytes(min(255, max(0, int((value - low) * scale))) for value in row)
+                for row in rows], palette=ramp())
+
+
+# ---- EXR, for weft to read ----
+
+def exr(path, rows):
+    """One channel Y, float, not compressed."""
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
+    width, lines = len(rows[0]), len(rows)
+    window = struct.pack("<4i", 0, 0, width - 1, lines - 1)
+    channels = b"Y\0" + struct.pack("<iB3xii", 2, 0, 1, 1) + b"\0"
+    head = struct.pack("<ii", 20000630, 2) + b"".join([
+        attribute(b"channels", b"chlist", channels), attribute(b"compression", b"compression", b"\0"),
+        attribute(b"dataWindow", b"box2i", window), attribute(b"displayWindow", b"box2i", window),
+        attribute(b"lineOrder", b"lineOrder", b"\0"),
+        attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)),
+        attribute(b"screenWindowCenter", b"v2f", struct.pack("<ff", 0, 0)),
+        attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))]) + b"\0"
+    first, size = len(head) + 8 * lines, 8 + 4 * width
+    with open(path, "wb") as out:
+        out.write(head + struct.pack(f"<{lines}Q", *(first + size * y for y in range(lines))))
+        for y, row in enumerate(rows):
+            out.write(struct.pack("<ii", y, 4 * width) + struct.pack(f"<{width}f", *row))
