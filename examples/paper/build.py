@@ -12,7 +12,7 @@ import time
 from page import Report
 from program import Failure, Weft
 
-EXPERIMENTS = ("lattice", "shapes", "camera", "blur")
+EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes")
 
 
 class Context:

@@ -1,5 +1,6 @@
 """The apertures themselves: their shapes, found with points of light, and their responses, found
 with zone plates. Figures 4, 7 and 9, and the box turned on its side."""
+import cmath
 import os
 
 import pictures
@@ -128,16 +129,26 @@ def vertical_response(ctx, aperture, lines=486):
                              samples=256 if ctx.quick else 1024)
         column = [row[4] for row in clip.picture()]
         found = plate_response(column, lines / 2, rings / lines, half=12, every=9 if rings == 1 else 12)
-        pairs += [(f, r) for f, r in found if rings == 1 or f > 0.5]
+        pairs += [(f, r) for f, r in found if rings == 1 or f > 0.48]
     return pairs
 
 
 def near(pairs, frequency):
-    return min(pairs, key=lambda pair: abs(pair[0] - frequency))[1]
+    """The response at a frequency, between those measured."""
+    pairs = sorted(pairs)
+    for (f0, r0), (f1, r1) in zip(pairs, pairs[1:]):
+        if f0 <= frequency <= f1:
+            return r0 + (r1 - r0) * (frequency - f0) / ((f1 - f0) or 1)
+    return pairs[-1][1]
 
 
-def energy(pairs, low, high):
-    return rms([r for f, r in pairs if low <= f <= high])
+def response_of(shape, frequency, across=True):
+    """The response by the measured shape: exact, for the shape has no noise."""
+    pairs = profile(shape, across)
+    total = sum(p for _, p in pairs)
+    middle = sum(z * p for z, p in pairs) / total
+    turns = [cmath.exp(-2j * cmath.pi * frequency * (z - middle)) * p for z, p in pairs]
+    return abs(sum(turns)) / total
 
 
 def vertical_plot(ctx, series):
@@ -162,7 +173,7 @@ EXACT = {"line": sinc, "box": lambda f: sinc(2 * f),
 def temporal_plot(responses):
     plot = Plot(Axis(0, 60, "temporal frequency, Hz", ticks=(0, 15, 30, 45, 60)),
                 Axis(0, 1.05, "response", ticks=(0, 0.25, 0.5, 0.75, 1)),
-                "Measured temporal responses of four apertures and their closed forms", height=320)
+                "Measured temporal responses of four apertures and their closed forms", 420, 320)
     for k, (name, (pairs, exact)) in enumerate(responses.items(), 1):
         plot.line([(f * 0.6, abs(exact(f / 100))) for f in range(101)], series=k, key=name)
         plot.points([(60 * f, r) for f, r in pairs], series=k)
@@ -183,9 +194,8 @@ def run(ctx):
              "diamond": lambda f: sinc(f) ** 2}
     responses = {name: (temporal_response(clip), forms[name]) for name, clip in clips.items()}
     heights = {name: vertical_response(ctx, name) for name in ("line", "box", "notch", "shaped")}
-    tall = {"diamond": vertical_response(ctx, "diamond")}
     ctx.figures.update(shapes=shapes, heights=heights, clips=clips, responses=responses,
-                       diamond=tall["diamond"], blur=spatial_equivalent(ctx))
+                       blur=spatial_equivalent(ctx))
     ctx.figures["apertures"] = {name: impulse_xy(ctx, name)
                                 for name in ("line", "box", "notch", "shaped")}
 
