@@ -12,7 +12,7 @@ import time
 from page import Report
 from program import Failure, Weft
 
-EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes")
+EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes", "still", "slow", "notch")
 
 
 class Context:
@@ -20,6 +20,7 @@ class Context:
 
     def __init__(self, weft, quick):
         self.weft, self.quick, self.report = weft, quick, Report()
+        self.designs = ()  # apertures that the paper had not
         self.figures = {}  # what one experiment measured and another speaks of
 
 

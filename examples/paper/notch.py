@@ -1,0 +1,95 @@
+"""Figures 9 and 10: the notch filter, the shaped aperture, and what sharpness costs."""
+from analysis import decibels, rms
+from page import figure, side_by_side
+from plots import Axis, Plot, number
+from shapes import profile, response_of, shape_plot, vertical_plot
+from still import fields, percent, share
+
+
+def profile_plot(shapes):
+    plot = Plot(Axis(-2.5, 2.5, "height from the line's middle, scan lines", ticks=range(-2, 3)),
+                Axis(0, 1.08, "weight", ticks=(0, 0.25, 0.5, 0.75, 1)),
+                "Measured vertical weights of the apertures and the paper's f", 420, 340)
+    for k, name in enumerate(("line", "box", "notch", "shaped"), 1):
+        plot.points([p for p in profile(shapes[name]) if abs(p[0]) < 2.4], k, name, 2.3)
+    curve = [(v / 50, quadratic(v / 50)) for v in range(-120, 121)]
+    plot.line(curve, 6, "f of the paper", dashed=True)
+    return plot.svg()
+
+
+def quadratic(v):
+    v = abs(v)
+    return 0.5 - v * v / 4 if v < 1 else v * v / 4 - v + 1 if v < 2 else 0.0
+
+
+def beyond(pairs):
+    return rms([r for f, r in pairs if f > 0.55])
+
+
+def costs_plot(found):
+    plot = Plot(Axis(0, 1, "sharpness: response at a quarter of a cycle a line"),
+                Axis(0, 1.1 * max(100 * share(found, n) for n in found), "flicker of a still zone plate, % RMS"),
+                "Flicker against sharpness, by aperture", height=360)
+    for k, name in enumerate(found):
+        x, y = found[name]["bob"]["sharpness"], 100 * share(found, name)
+        plot.points([(x, y)], 1 + k % 7, radius=5)
+        plot.word(x, y, name, series=1 + k % 7, dx=9)
+    return plot
+
+
+def run(ctx):
+    shapes, heights = ctx.figures["apertures"], ctx.figures["heights"]
+    found = ctx.figures["plates"]
+    zero = {name: response_of(shapes[name], 0.5) for name in shapes}
+    alike = rms([a[1] - b[1] for a, b in zip(profile(shapes["notch"]), profile(shapes["shaped"]))])
+    form = rms([w - quadratic(v) for v, w in profile(shapes["notch"])])
+    maps = side_by_side(*(shape_plot(shapes[name], "x, pixels", f"Measured weight of the aperture {name}",
+                                     (2, 3), (300, 380)) for name in ("box", "notch", "shaped")))
+    box, notch = beyond(heights["box"]), beyond(heights["notch"])
+    ctx.report.section(
+        "notch", "A notch where it flickers",
+        "The box of two lines has its first zero at half a cycle a line, and that is its whole secret. But "
+        "a box is a crude filter. The paper's answer is a quadratic f, four lines high, with the same zero "
+        "and calmer beyond, and then a beautiful trick: cut a hole of that shape into a card. "
+        "Points that fall into the hole count alike, those outside do not count, as in the facsimile "
+        "machines of 1934.",
+        figure("fig-9", maps + '<div style="height:16px"></div><div class="row n2 plots">' +
+               profile_plot(shapes) + vertical_plot(ctx, heights).replace("560", "560") + "</div>",
+               "<b>Figure 9.</b> Apertures as measured with points of light on a grid of 1/8 pixel, lines "
+               "drawn white. Below left: their weight by height, over the paper's f. Below right: their "
+               "responses, dots measured on zone plates, curves in closed form."),
+        f"Hole and weight are the same thing in height: they differ by {number(alike, 4)} RMS. The card's hole "
+        "is two pixels wide in its middle, though, and narrows outward, so that it also tempers fine "
+        'diagonals. That will pay off <a href="#color">with color</a>.',
+        figure("fig-10", fields(found["shaped"]["clip"], "shaped"), "<b>Figure 10.</b> The zone plate of Figure 8 "
+               "again, both fields, through <code>shaped</code>. Compare the upper and lower edges."),
+        f"Flicker falls from {percent(share(found, 'line'))} RMS to {percent(share(found, 'notch'))} with "
+        f"<code>notch</code> and {percent(share(found, 'shaped'))} with <code>shaped</code>; <code>box</code> "
+        f"has {percent(share(found, 'box'))}.")
+    frontier(ctx, found)
+    add = ctx.report.row
+    add("§5", "The box has a zero at 0.5 cycles a line; so has the quadratic filter.",
+        f"responses there: box {number(zero['box'], 5)}, notch {number(zero['notch'], 5)}, shaped "
+        f"{number(zero['shaped'], 5)}; line {number(zero['line'], 3)}", max(zero["box"], zero["notch"]) < 0.005)
+    add("§5", "The notch filter attenuates other high frequencies better than the box.",
+        f"from 0.55 to 1 cycle a line: box {number(decibels(box), 1)} dB, notch {number(decibels(notch), 1)} dB RMS",
+        notch < 0.5 * box)
+    add("§5, Fig. 9", "Unweighted sampling within a shape of width proportional to f gives a similar result.",
+        f"vertical weights of <i>shaped</i> and <i>notch</i> differ by {number(alike, 4)} RMS, <i>notch</i> "
+        f"from f by {number(form, 4)}", alike < 0.01 and form < 0.01)
+
+
+def frontier(ctx, found):
+    plot = costs_plot(found)
+    ctx.report.section(
+        "frontier", "What sharpness costs",
+        "There is no free sharpness. Each aperture is a compromise between what a line may show and what "
+        "the display will make of it thirty times a second. Lower right would be heaven.",
+        figure("frontier-plot", plot.svg(), "Flicker of the still zone plate against sharpness, both by "
+               "<code>weft measure</code>."))
+    line, box, diamond = found["line"]["bob"], found["box"]["bob"], found["diamond"]["bob"]
+    ctx.report.row("§5", "There is a tradeoff between flicker and vertical sharpness.",
+                   "; ".join(f"<i>{name}</i> {number(found[name]['bob']['sharpness'], 2)} sharp, "
+                             f"{percent(share(found, name))} flicker" for name in found),
+                   line["sharpness"] > box["sharpness"] and
+                   line["flicker"]["rms"] > box["flicker"]["rms"] and diamond["flicker"]["rms"] > 0)
