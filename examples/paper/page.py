@@ -67,11 +67,11 @@ class Report:
     def contents(self):
         return "".join(f'<li><a href="#{name}">{title}</a></li>' for name, title, _ in self.sections)
 
-    def html(self, opening, closing, player_data):
+    def html(self, opening, player, closing, data):
         sections = "".join(f'<section id="{name}" aria-labelledby="{name}-title">'
                            f'<h2 id="{name}-title">{title}</h2>{body}</section>'
                            for name, title, body in self.sections)
         return asset("page.html").format(style=asset("page.css"), opening=opening,
-                                         contents=self.contents(), sections=sections,
-                                         closing=closing, data=player_data,
+                                         contents=self.contents(), player=player,
+                                         sections=sections, closing=closing, data=data,
                                          script=asset("player.js"))

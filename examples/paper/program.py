@@ -86,8 +86,8 @@ class Clip:
 class Weft:
     """The program. Outputs are files in a folder of their own, each made once."""
 
-    def __init__(self, program, folder, say):
-        self.program, self.folder, self.say = program, folder, say
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
         self.made, self.seconds, self.runs = {}, 0.0, 0
         self.scenes = os.path.dirname(os.path.abspath(__file__))
 
@@ -145,7 +145,7 @@ class Weft:
 
     def composite(self, path, system, encoder, decoder):
         return self.make(".y4m", "composite", path, "--system", system, "--encoder", encoder,
-                         "--decoder", decoder, "--chroma", "444")
+                         "--decoder", decoder, "--chroma", "444", "--bits", 8)
 
     def response(self, aperture):
         return json.loads(self.run("filters", aperture, "--json"))

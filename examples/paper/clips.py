@@ -1,0 +1,49 @@
+"""The player's clips: fields under each other in one picture for each clip and aperture."""
+import json
+
+import pictures
+
+SIZE, RASTER = (240, 180), "240x180@30000/1001"
+LABELS = {"line": "line: one line high", "box": "box: two lines", "notch": "notch: the quadratic",
+          "shaped": "shaped: the cut-out", "diamond": "diamond", "crisp": "crisp: designed to be sharp",
+          "calm": "calm: designed to be calm", "frames": "box, both fields at one instant"}
+CLIPS = (
+    {"id": "plate", "title": "Zone plate, still", "scene": "zoneplate", "frames": 1, "tau": 0,
+     "apertures": ("line", "box", "notch", "shaped")},
+    {"id": "letters", "title": "Captions, still", "scene": "lettering", "frames": 1, "tau": 0,
+     "apertures": ("line", "box", "notch", "shaped")},
+    {"id": "edges", "title": "Edges, sinking 30 lines a second", "scene": "stripes", "frames": 16, "tau": 0,
+     "apertures": ("line", "box", "notch", "shaped", "diamond")},
+    {"id": "carousel", "title": "Carousel, to and fro", "scene": "carousel", "frames": 8, "tau": 0,
+     "apertures": ("line", "box", "shaped", "frames"), "color": True, "bounce": True},
+)
+
+
+def sprite(clip, fields, color):
+    """All fields' own lines under each other."""
+    rows = []
+    cut = pictures.color_rows if color else pictures.grey_rows
+    for n in range(fields):
+        rows += cut(clip, n // 2, clip.own_lines(n))
+    return pictures.uri(pictures.png(rows, color=color, filtered=color))
+
+
+def variant(ctx, clip, name):
+    scan = "psf,bff" if name == "frames" else "i,bff"
+    aperture = "box" if name == "frames" else name
+    options = {"rpm": 20} if clip["id"] == "carousel" else {}
+    made = ctx.weft.clip(clip["scene"], RASTER + scan, aperture, clip["frames"], 8, tau=clip["tau"],
+                         samples=16 if ctx.quick else 64, **options)
+    if name == "frames":
+        made.scan = "b"  # its lines are still shown bottom field first
+    return {"name": name, "label": LABELS.get(name, name),
+            "sprite": sprite(made, 2 * clip["frames"], clip.get("color", False))}
+
+
+def run(ctx):
+    """The data of the player, as JSON that may stand in HTML."""
+    clips = [{"id": clip["id"], "title": clip["title"], "width": SIZE[0], "lines": SIZE[1],
+              "fields": 2 * clip["frames"], "first": 1, "bounce": clip.get("bounce", False),
+              "variants": [variant(ctx, clip, name) for name in clip["apertures"] + ctx.designs]}
+             for clip in CLIPS]
+    return json.dumps({"clips": clips}).replace("</", "<\\/")
