@@ -33,17 +33,21 @@ def variant(ctx, clip, name):
     aperture = "box" if name == "frames" else name
     options = {"rpm": 20} if clip["id"] == "carousel" else {}
     made = ctx.weft.clip(clip["scene"], RASTER + scan, aperture, clip["frames"], 8, tau=clip["tau"],
-                         samples=16 if ctx.quick else 64, **options)
+                         samples=8 if ctx.quick else 64, **options)
     if name == "frames":
         made.scan = "b"  # its lines are still shown bottom field first
     return {"name": name, "label": LABELS.get(name, name),
             "sprite": sprite(made, 2 * clip["frames"], clip.get("color", False))}
 
 
+def apertures(ctx, clip):
+    return clip["apertures"] + (() if clip.get("color") else ctx.designs)
+
+
 def run(ctx):
     """The data of the player, as JSON that may stand in HTML."""
     clips = [{"id": clip["id"], "title": clip["title"], "width": SIZE[0], "lines": SIZE[1],
               "fields": 2 * clip["frames"], "first": 1, "bounce": clip.get("bounce", False),
-              "variants": [variant(ctx, clip, name) for name in clip["apertures"] + ctx.designs]}
+              "variants": [variant(ctx, clip, name) for name in apertures(ctx, clip)]}
              for clip in CLIPS]
     return json.dumps({"clips": clips}).replace("</", "<\\/")
