@@ -33,7 +33,7 @@ def variant(ctx, clip, name):
     aperture = "box" if name == "frames" else name
     options = {"rpm": 20} if clip["id"] == "carousel" else {}
     made = ctx.weft.clip(clip["scene"], RASTER + scan, aperture, clip["frames"], 8, tau=clip["tau"],
-                         samples=8 if ctx.quick else 64, **options)
+                         samples=4 if ctx.quick else 64, **options)
     if name == "frames":
         made.scan = "b"  # its lines are still shown bottom field first
     return {"name": name, "label": LABELS.get(name, name),

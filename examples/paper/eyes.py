@@ -81,7 +81,7 @@ def retina(ctx, screen, tau, follow):
     size = 72
     frames = {"24 frames": 5}.get(screen, 5)
     clip = ctx.weft.clip("pursuit", f"200x{size}{SCREENS[screen]}", "box", frames, tau=tau, speed=SPEED,
-                         disc=1, samples=32)
+                         disc=1, samples=16 if ctx.quick else 32)
     total = [[0.0] * size for _ in range(size)]
     for n in range(2, 10):
         frame, first, step = shown(screen, n)

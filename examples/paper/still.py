@@ -9,7 +9,7 @@ RASTER = "525i"
 
 def plates(ctx):
     """Zone plates by aperture: paths, clips, and what weft measures of them."""
-    samples = 32 if ctx.quick else 64
+    samples = 16 if ctx.quick else 64
     names = ("line", "box", "notch", "shaped", "diamond") + ctx.designs
     found = {}
     for name in names:

@@ -33,7 +33,7 @@ def spoke_wave(rows, x, y, radius=15, points=96):
 def watch(ctx, tau):
     """By wheel: apparent turns a minute and how clear its spokes are."""
     clip = ctx.weft.clip("wheels", f"{ACROSS * CELL}x{DOWN * CELL}@60000/1001p", "box", FIELDS, tau=tau,
-                         to=TOP_RPM, samples=16)
+                         to=TOP_RPM, samples=6 if ctx.quick else 16)
     frames = [clip.picture(n) for n in range(FIELDS)]
     found = []
     for n in range(ACROSS * DOWN):
@@ -89,7 +89,7 @@ def crops(ctx):
     parts = []
     for tau, word in ((0, "an instant"), ("1/2", "half a field"), (1, "one field"), (2, "two fields")):
         clip = ctx.weft.clip("wheel", "480x360@60000/1001p", "box", "34-34", 8, tau=tau,
-                             samples=16 if ctx.quick else 64)
+                             samples=4 if ctx.quick else 64)
         rows = pictures.color_rows(clip, 0, range(20, 340), 60, 380)
         parts.append(picture(pictures.png(rows, color=True, filtered=True), f"A rolling wheel and a beating "
                              f"bird, window {word}", note=f"<b>{word}</b>"))

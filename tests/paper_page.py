@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""Looks at the page that examples/paper makes, as text and in a browser: paper_page.py PAGE CHROMIUM"""
+import base64
+import json
+import pathlib
+import re
+import struct
+import sys
+import zlib
+from html.parser import HTMLParser
+
+from browser import Browser
+
+IDS = [f"fig-{n}" for n in range(1, 12)] + [
+    "lattice", "rotated", "crawl", "slow-edges", "rule", "judder", "wheel", "wings", "per-object",
+    "bullseyes", "frontier", "player", "table"]
+VOID = {"meta", "link", "img", "br", "input", "hr"}
+FADE = 0.14
+failed = []
+
+
+def check(name, good, told=""):
+    if not good:
+        failed.append(name)
+    print(("ok: " if good else "FAILED: ") + name + (f": {told}" if told and not good else ""))
+
+
+# ---- As text ----
+
+class Structure(HTMLParser):
+    """Whether tags close in the order they opened, ids are given once, and nothing is fetched."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.wrong, self.outside, self.unnamed = [], [], [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.ids += [given["id"]] if "id" in given else []
+        for key in ("src", "href"):
+            value = given.get(key) or "#"
+            if not value.startswith(("#", "data:")):
+                self.outside.append(value)
+        if tag == "img" and not given.get("alt"):
+            self.unnamed.append(self.getpos())
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append((tag, self.getpos()))
+
+
+def read(text):
+    page = Structure()
+    page.feed(text)
+    page.close()
+    check("tags close as they opened", not page.wrong and not page.open, str(page.wrong[:3]))
+    check("ids are given once", len(page.ids) == len(set(page.ids)))
+    check("nothing is fetched", not page.outside and "@import" not in text, str(page.outside[:3]))
+    check("pictures have words", not page.unnamed, str(page.unnamed[:3]))
+    for name in IDS:
+        check(f"{name} is there", name in page.ids)
+    check("no number is missing", not re.search(r"\bnan\b|\binf\b|None", re.sub(
+        r"data:image/png;base64,[A-Za-z0-9+/=]+|<script.*?</script>", "", text, flags=re.S)))
+
+
+# ---- The player's fields, found without it ----
+
+def decode(uri):
+    """Rows of R G B from the page's PNGs: 8 bits, grey or R G B, filters 0 and 1."""
+    data = base64.b64decode(uri.split(",", 1)[1])
+    width, lines, _, kind = struct.unpack(">IIBB", data[16:26])
+    step, at, body = (3 if kind == 2 else 1), 8, b""
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at:at + 8])
+        body += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
+        at += 12 + size
+    raw, rows = zlib.decompress(body), []
+    for y in range(lines):
+        row = bytearray(raw[y * (step * width + 1) + 1:(y + 1) * (step * width + 1)])
+        if raw[y * (step * width + 1)] == 1:
+            for k in range(step, len(row)):
+                row[k] = (row[k] + row[k - step]) & 255
+        rows.append(row)
+    return rows, step
+
+
+def expected(clip, sprite, tick, mode, x):
+    """A column's red as the screen should show it."""
+    rows, step = sprite
+    half, fields = clip["lines"] // 2, clip["fields"]
+
+    def field_at(n):
+        order = list(range(fields)) + (list(range(fields - 2, 0, -1)) if clip["bounce"] else [])
+        return order[n % len(order)]
+
+    def light(field, y):
+        return rows[field * half + y // 2][x * step]
+
+    now, before = field_at(tick), field_at(tick - 1)
+    if mode == "frame":
+        before = now + 1 if now % 2 == 0 else now - 1
+    own, last, out = (now + clip["first"]) % 2, clip["lines"] - 1, []
+    for y in range(clip["lines"]):
+        if y % 2 == own:
+            out.append(light(now, y))
+        elif mode == "bob":
+            out.append((light(now, y - 1 if y else 1) + light(now, y + 1 if y < last else last - 1)) >> 1)
+        else:
+            out.append(light(before, y) * (FADE if mode == "crt" else 1))
+    return out
+
+
+COLUMN = """(function (panel, x) {
+  var c = weftPlayer.panels[panel].canvas;
+  var d = c.getContext("2d").getImageData(x, 0, 1, c.height).data;
+  return Array.from({length: c.height}, function (_, y) { return d[4 * y]; });
+})(%d, %d)"""
+
+
+def screens(page, clips):
+    """Every clip in every mode: canvas against fields."""
+    for clip in clips:
+        page.run(f"weftPlayer.setClip('{clip['id']}')")
+        names = page.run("weftPlayer.panels.map(function (p) { return p.variant.name; })")
+        check(f"{clip['id']} opens on two apertures", len(set(names)) == 2, str(names))
+        by_name = {v["name"]: decode(v["sprite"]) for v in clip["variants"]}
+        for mode in ("crt", "bob", "weave", "frame"):
+            worst = 0
+            for tick in (0, 1, clip["fields"] + 1):
+                page.run(f"weftPlayer.setMode('{mode}'); weftPlayer.tick = {tick}; weftPlayer.draw();")
+                for panel, name in enumerate(names):
+                    x = clip["width"] // 3
+                    shown = page.run(COLUMN % (panel, x))
+                    wanted = expected(clip, by_name[name], tick, mode, x)
+                    worst = max(worst, max(abs(a - b) for a, b in zip(shown, wanted)))
+            check(f"{clip['id']}, {mode}: the right lines of the right fields", worst <= 1, str(worst))
+
+
+def steps(page):
+    """Buttons, keys and time."""
+    press = lambda name: page.run(f"""document.querySelector('#player [data-do="{name}"]').click(),
+                                   weftPlayer.tick""")
+    page.run("weftPlayer.tick = 4; weftPlayer.draw()")
+    got = [press(name) for name in ("field", "field", "field-back", "frame", "frame-back", "frame-back")]
+    check("buttons step fields and frames", got == [5, 6, 5, 6, 4, 2], str(got))
+    key = lambda name, shift: page.run(
+        f"""document.getElementById('player').dispatchEvent(new KeyboardEvent('keydown',
+            {{key: '{name}', shiftKey: {shift}, bubbles: true}})), weftPlayer.tick""")
+    got = [key("ArrowRight", "false"), key("ArrowLeft", "false"), key("ArrowRight", "true")]
+    check("keys step fields and frames", got == [3, 2, 4], str(got))
+    key("b", "false")
+    check("keys choose the display", page.run("weftPlayer.mode") == "bob")
+    wait = "new Promise(function (done) { setTimeout(function () { done(weftPlayer.tick); }, %d); })"
+    page.run("weftPlayer.setRate(50)")
+    press("play")
+    page.run(wait % 300)
+    first, second = page.run(wait % 1), page.run(wait % 1000)
+    check("it plays at its rate", 25 <= second - first <= 60, f"{second - first} fields in a second")
+    press("play")
+    first, second = page.run(wait % 100), page.run(wait % 200)
+    check("it pauses", first == second and page.run("weftPlayer.playing") is False)
+
+
+def look(page, text):
+    check("nothing plays by itself", page.run("weftPlayer.loaded.then(function () { return "
+                                              "weftPlayer.ready && !weftPlayer.playing; })"))
+    pictures = page.run("""Promise.all(Array.from(document.images).map(function (i) {
+        return i.decode().then(function () { return i.naturalWidth; }, function () { return 0; }); }))""")
+    check("pictures are there", len(pictures) >= 30 and min(pictures) > 0, str(pictures))
+    charts = page.run("""Array.from(document.querySelectorAll('.plot > svg')).map(function (s) {
+        return s.getBoundingClientRect().height > 50 &&
+               s.querySelectorAll('.line, circle, image, .bar').length > 0; })""")
+    check("plots are drawn", len(charts) >= 15 and all(charts), str(charts))
+    rows = page.run("""Array.from(document.querySelectorAll('#table .claims tbody tr')).map(function (r) {
+        return Array.from(r.cells).map(function (c) { return c.textContent; }); })""")
+    check("the table has its rows", len(rows) >= 35, str(len(rows)))
+    bad = [r for r in rows if len(r) != 4 or not re.search(r"\d", r[2]) or
+           not r[3].startswith(("agrees", "differs", "open"))]
+    check("its rows have numbers and verdicts", not bad, str(bad))
+    places = " ".join(r[0] for r in rows)
+    gone = [n for n in range(1, 12) if not re.search(rf"Fig\. (\d+, )?{n}\b", places)]
+    check("the table speaks of every figure", not gone, str(gone))
+    screens(page, json.loads(re.search(r'id="player-data">(.*?)</script>', text, re.S).group(1))["clips"])
+    steps(page)
+    for width in (390, 1280):
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1,
+                  mobile=False)
+        wide = page.run("document.documentElement.scrollWidth")
+        check(f"it fits {width} pixels", wide <= width, str(wide))
+    check("no script failed", not page.run("window.pageErrors.length") and not page.complaints(),
+          str(page.run("window.pageErrors")) + str(page.complaints()))
+
+
+def main(path, chromium):
+    text = pathlib.Path(path).read_text(encoding="utf-8")
+    check("the page is not too large", len(text) < 15e6, str(len(text)))
+    read(text)
+    with Browser(chromium) as page:
+        page.open(pathlib.Path(path).resolve().as_uri())
+        look(page, text)
+    print(f"{len(failed)} checks failed" if failed else "all checks passed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
