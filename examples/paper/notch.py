@@ -1,4 +1,6 @@
 """Figures 9 and 10: the notch filter, the shaped aperture, and what sharpness costs."""
+import json
+
 from analysis import decibels, rms
 from page import figure, side_by_side
 from plots import Axis, Plot, number
@@ -26,15 +28,32 @@ def beyond(pairs):
     return rms([r for f, r in pairs if f > 0.55])
 
 
-def costs_plot(found):
+SIDES = {"calm": ("end", -9, 12), "shaped": ("start", 9, 14)}  # where names do not meet
+
+
+def costs_plot(found, curves):
     plot = Plot(Axis(0, 1, "sharpness: response at a quarter of a cycle a line"),
-                Axis(0, 1.1 * max(100 * share(found, n) for n in found), "flicker of a still zone plate, % RMS"),
-                "Flicker against sharpness, by aperture", height=360)
-    for k, name in enumerate(found):
+                Axis(0, 1.1 * max(100 * share(found, n) for n in found),
+                     "flicker of a still zone plate, % RMS"), "Flicker against sharpness, by aperture",
+                height=360)
+    for curve in curves:
+        width = number(curve["width"])
+        pairs = [(x, 100 * y) for x, y in zip(curve["sharpness"], curve["flicker"])]
+        plot.line(pairs, 6, f"the least there can be, {width} pixel" + ("s" if width != "1" else "") +
+                  " wide, overshoot 8 %", dashed=curve["width"] > 1)
+    for k, name in enumerate(found, 1):
         x, y = found[name]["bob"]["sharpness"], 100 * share(found, name)
-        plot.points([(x, y)], 1 + k % 7, radius=5)
-        plot.word(x, y, name, series=1 + k % 7, dx=9)
+        anchor, dx, dy = SIDES.get(name, ("start", 9, 0))
+        plot.points([(x, y)], (k - 1) % 7 + 1, radius=5)
+        plot.word(x, y, name, anchor, dx, dy, series=(k - 1) % 7 + 1)
     return plot
+
+
+def designed(ctx):
+    """The least flicker there can be by sharpness, for the designs that crisp is one of."""
+    said = ctx.weft.run("filters", "--frontier", ctx.weft.folder + "/frontier.png", "--json")
+    curves = json.loads(said)["curves"]
+    return [c for c in curves if c["overshoot"] == max(c["overshoot"] for c in curves)]
 
 
 def run(ctx):
@@ -54,7 +73,7 @@ def run(ctx):
         "Points that fall into the hole count alike, those outside do not count, as in the facsimile "
         "machines of 1934.",
         figure("fig-9", maps + '<div style="height:16px"></div><div class="row n2 plots">' +
-               profile_plot(shapes) + vertical_plot(ctx, heights).replace("560", "560") + "</div>",
+               profile_plot(shapes) + vertical_plot(ctx, heights) + "</div>",
                "<b>Figure 9.</b> Apertures as measured with points of light on a grid of 1/8 pixel, lines "
                "drawn white. Below left: their weight by height, over the paper's f. Below right: their "
                "responses, dots measured on zone plates, curves in closed form."),
@@ -80,16 +99,25 @@ def run(ctx):
 
 
 def frontier(ctx, found):
-    plot = costs_plot(found)
+    plot = costs_plot(found, designed(ctx) if ctx.designs else [])
+    line, box = found["line"]["bob"], found["box"]["bob"]
+    words = [f"There is no free sharpness. A box two lines high keeps {percent(box['sharpness'], 0)} of a quarter "
+             f"of a cycle a line and flickers by {percent(share(found, 'box'), 1)}; one line high it keeps "
+             f"{percent(line['sharpness'], 0)} and flickers by {percent(share(found, 'line'), 1)}. Lower right "
+             "would be heaven."]
+    if "crisp" in found:
+        crisp = found["crisp"]["bob"]
+        words.append("The paper's shapes are not the last word, though. Today one can ask a computer for the weights "
+                     "that flicker least at a given sharpness. <code>crisp</code> is one of these: "
+                     f"{percent(crisp['sharpness'], 0)} sharp, {percent(share(found, 'crisp'), 1)} flicker. It "
+                     "has weights below zero, which a hole in a card cannot have.")
     ctx.report.section(
-        "frontier", "What sharpness costs",
-        "There is no free sharpness. Each aperture is a compromise between what a line may show and what "
-        "the display will make of it thirty times a second. Lower right would be heaven.",
-        figure("frontier-plot", plot.svg(), "Flicker of the still zone plate against sharpness, both by "
-               "<code>weft measure</code>."))
-    line, box, diamond = found["line"]["bob"], found["box"]["bob"], found["diamond"]["bob"]
+        "frontier", "What sharpness costs", *words,
+        figure("frontier-plot", plot.svg(), "Flicker of the still zone plate against sharpness. Dots are "
+               "measured by <code>weft measure</code> on rendered fields, curves computed by <code>weft filters "
+               "--frontier</code>."))
     ctx.report.row("§5", "There is a tradeoff between flicker and vertical sharpness.",
                    "; ".join(f"<i>{name}</i> {number(found[name]['bob']['sharpness'], 2)} sharp, "
-                             f"{percent(share(found, name))} flicker" for name in found),
+                             f"{percent(share(found, name), 1)} flicker" for name in found),
                    line["sharpness"] > box["sharpness"] and
-                   line["flicker"]["rms"] > box["flicker"]["rms"] and diamond["flicker"]["rms"] > 0)
+                   line["flicker"]["rms"] > box["flicker"]["rms"])

@@ -1,6 +1,7 @@
 """The page: sections, figures, the table, and one file of HTML."""
 import html
 import os
+import re
 
 from pictures import uri
 
@@ -71,6 +72,7 @@ class Report:
         sections = "".join(f'<section id="{name}" aria-labelledby="{name}-title">'
                            f'<h2 id="{name}-title">{title}</h2>{body}</section>'
                            for name, title, body in self.sections)
+        sections = re.sub(r"(?<=\d) (?=(%|Hz|ms|dB|px)\b|%)", "\N{NO-BREAK SPACE}", sections)
         return asset("page.html").format(style=asset("page.css"), opening=opening,
                                          contents=self.contents(), player=player,
                                          sections=sections, closing=closing, data=data,

@@ -16,8 +16,8 @@ def number(value, digits=None):
     else:
         text = f"{value:.{digits}f}"
         if float(text) == 0:
-            text = text.lstrip("-")
-    return text.replace("-", MINUS)
+            text = f"< {10.0 ** -digits:.{digits}f}" if value and digits > 2 else text.lstrip("-")
+    return text.replace("-", MINUS).replace("<", "&lt;")
 
 
 class Axis:

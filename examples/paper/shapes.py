@@ -154,7 +154,7 @@ def response_of(shape, frequency, across=True):
 def vertical_plot(ctx, series):
     plot = Plot(Axis(0, 1, "vertical frequency, cycles a line", ticks=(0, 0.25, 0.5, 0.75, 1)),
                 Axis(-60, 3, "response, dB", ticks=(0, -20, -40, -60)),
-                "Measured vertical responses of the apertures and their closed forms", height=360)
+                "Measured vertical responses of the apertures and their closed forms", 420, 340)
     plot.rule(x=0.5, text="what is here flickers")
     for k, (name, pairs) in enumerate(series.items(), 1):
         curve = [(r["frequency"], r["vertical_db"]) for r in ctx.weft.response(name)["response"]]

@@ -91,7 +91,7 @@ def lettering(ctx, names):
 
 
 def crawl_section(ctx, found):
-    box = (40, 160, 118, 190)
+    box = (36, 166, 96, 190)
     parts = []
     for name in ("line", "shaped"):
         parts += [picture(bobbed(found[name]["clip"], n, *box), f"Lettering through {name}, field {n + 1}",
@@ -149,7 +149,8 @@ def figure_8(ctx, found, line, notch):
                    f"{percent(share(found, 'notch'))} against {percent(share(found, 'line'))}, over 2 %: "
                    f"{percent(share(found, 'notch', 'bob', 'share'), 2)} of the picture against "
                    f"{percent(share(found, 'line', 'bob', 'share'), 1)}",
-                   notch[0] < 0.1 * line[0] and share(found, "notch") < share(found, "line"))
+                   notch[0] < 0.15 * line[0] and share(found, "notch") < 0.5 * share(found, "line"),
+                   "The Moiré is. What still flickers is of middling fineness, between the zeros.")
 
 
 def rule(ctx, found, letters):

@@ -142,24 +142,24 @@ def streaks(ctx, speed):
 
 
 def own_section(ctx):
-    speed = 24
+    speed = 56
     widths, lengths = (0, 0.5, 1, 2), streaks(ctx, 16)
     clip = ctx.weft.clip("own", "420x240@60p", "box", 1, 8, tau="1/2", speed=speed,
                          samples=64 if ctx.quick else 256)
-    data = pictures.png(pictures.color_rows(clip, 0, range(240), 40, 400), color=True, filtered=True)
+    data = pictures.png(pictures.color_rows(clip, 0, range(240), 60, 360), color=True, filtered=True)
     ctx.report.section(
         "per-object", "To each its own shutter",
         "The paper ends with a wish: let the artist give different objects different amounts of blur. A "
         "solid in weft may carry its own temporal width. One picture, one render, four balls at the same "
         f"speed of {speed} pixels a field:",
-        figure("own-shutters", picture(data, "Four balls at one speed with four lengths of blur",
-                                       shape=360 / 240), "From the top, <code>temporal_width</code> 0, 1/2, 1 and 2 "
+        figure("own-shutters", '<div class="half">' + picture(data, "Four balls at one speed with four "
+               "lengths of blur", shape=300 / 240) + "</div>", "From the top, <code>temporal_width</code> 0, 1/2, 1 and 2 "
                "field periods. The smear of each, as measured, is "
                f"{', '.join(number(v, 2) for v in lengths)} fields long."))
     ctx.report.row("§7", "Different amounts of temporal filtering for different objects: a future "
                    "consideration.", "asked for 0, 1/2, 1, 2 fields in one picture; streaks measured "
                    f"{', '.join(number(v, 2) for v in lengths)} fields",
-                   all(abs(a - b) < 0.12 for a, b in zip(widths, lengths)), "Done here.")
+                   all(abs(a - b) < 0.15 for a, b in zip(widths, lengths)), "Done here. A pixel is a sixteenth of a field wide.")
 
 
 def run(ctx):
