@@ -23,31 +23,31 @@ def run(ctx):
     equal, plain = ctx.figures["blur"]
     ctx.report.section(
         "time", "Boxes, bricks and diamonds",
-        "What else could a pixel average over? The paper turns the camera's box on its side, one line "
-        "high and a frame long, and tries a diamond in time and height, which looks so symmetrical on "
-        "paper. Here is a picture that shows what each does: a zone plate that drifts to the right at "
-        "8 pixels a field. Further right things change faster, further up lines are finer, so that "
-        "the frame <i>is</i> a map of the aperture's response, from 0 to 60 Hz across and to half a "
-        "cycle a line up and down.",
+        "What else could a pixel average over? The paper turns the camera's box on its side, one "
+        "line high and a frame long, and tries a diamond in time and height, which looks so "
+        "symmetrical on paper. Here is a picture that shows what each does: a zone plate that "
+        "drifts to the right at 8 pixels a field. Further right things change faster, further up "
+        "lines are finer, so that the frame <i>is</i> a map of the aperture's response, from 0 to "
+        "60 Hz across and to half a cycle a line up and down.",
         '<figure id="rotated">' + maps.replace("row n4", "row n4") +
-        "<figcaption><b>One frame of a drifting zone plate.</b> Where rings vanish nothing passes. With no "
-        "width in time all motion stays, 60 Hz and beyond included, which is judder. The "
-        "rotated box loses half of everything beyond "
+        "<figcaption><b>One frame of a drifting zone plate.</b> Where rings vanish nothing "
+        "passes. With no width in time all motion stays, 60 Hz and beyond included, which is "
+        "judder. The rotated box loses half of everything beyond "
         f"{number(half_power(responses['rotated'][0]) * 60, 0)} Hz, the camera's beyond "
         f"{number(half_power(responses['ccd'][0]) * 60, 0)} Hz.</figcaption></figure>",
         figure("fig-7", '<div class="row n2 plots">' +
                shape_plot(shapes["diamond"], "time, fields", "Measured weight of the diamond in time and "
                           "height", (2, 2), (420, 320)) + temporal_plot(responses) + "</div>",
-               "<b>Figure 7.</b> The diamond as measured, and how much of a change in time passes. Curves "
-               "are closed forms, dots are measured in the frames above."),
-        f"At 15 Hz the camera keeps {percent(at['ccd'])}, the diamond {percent(at['diamond'])}, the "
-        f"rotated box {percent(at['rotated'])}. And of half a cycle a line, which is what "
-        f"flickers, the diamond lets {percent(diamond)} pass and the rotated box {percent(line)}; the "
-        f"box, two lines high, {percent(box)}. Blurred where one wants detail and sharp where one "
-        "wants none: the paper's verdict on both holds.",
-        "For steady motion, blur in time is nothing but a smear along the way, which could be added "
-        f"to a still picture afterwards. The two differ by {number(equal, 4)} RMS here, where the "
-        f"blur itself amounts to {number(plain, 3)}.")
+               "<b>Figure 7.</b> The diamond as measured, and how much of a change in time "
+               "passes. Curves are closed forms, dots are measured in the frames above."),
+        f"At 15 Hz the camera keeps {percent(at['ccd'])}, the diamond {percent(at['diamond'])}, "
+        f"the rotated box {percent(at['rotated'])}. And of half a cycle a line, which is what "
+        f"flickers, the diamond lets {percent(diamond)} pass and the rotated box {percent(line)}; "
+        f"the box, two lines high, {percent(box)}. Blurred where one wants detail and sharp where "
+        "one wants none: the paper's verdict on both holds.",
+        "For steady motion, blur in time is nothing but a smear along the way, which could be "
+        f"added to a still picture afterwards. The two differ by {number(equal, 4)} RMS here, "
+        f"where the blur itself amounts to {number(plain, 3)}.")
     add = ctx.report.row
     add("§4", "Temporal filtering of steady motion equals spatial filtering along the motion.",
         f"RMS difference {number(equal, 4)}; without the smear {number(plain, 3)}", equal < 0.1 * plain)
@@ -56,7 +56,8 @@ def run(ctx):
         f"at 30 Hz {percent(half['rotated'])} (camera "
         f"{percent(half['ccd'])})", at["rotated"] < at["ccd"] - 0.1)
     add("Fig. 7", "The diamond blurs motion too much ...",
-        f"at 15 Hz {percent(at['diamond'])} is left (camera {percent(at['ccd'])}); the closed form says "
+        f"at 15 Hz {percent(at['diamond'])} is left (camera {percent(at['ccd'])}); the closed form "
+        "says "
         f"{percent(sinc(0.25) ** 2)}", at["diamond"] < at["ccd"] - 0.05)
     add("Fig. 7", "... and is too sharp vertically, which causes flicker.",
         f"response at 0.5 cycles a line {number(diamond, 3)}; box {number(box, 3)}",

@@ -13,7 +13,8 @@ import clips
 from page import Report, asset
 from program import Failure, Weft
 
-EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes", "wheels", "still", "slow", "notch", "color")
+EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes", "wheels", "still", "slow",
+               "notch", "color")
 
 
 class Context:
@@ -21,7 +22,7 @@ class Context:
 
     def __init__(self, weft, quick):
         self.weft, self.quick, self.report = weft, quick, Report()
-        self.designs = ()  # apertures that the paper had not
+        self.designs = ("crisp", "calm")  # apertures that the paper had not
         self.figures = {}  # what one experiment measured and another speaks of
 
 
@@ -44,9 +45,10 @@ def opening(ctx):
         '<p class="kicker">Amanatides and Mitchell, SIGGRAPH 1990, rendered and measured again</p>'
         "<h1>Antialiasing of interlaced video</h1>"
         '<p class="lead">Television drew half a picture at a time. In 1990 two people at Bell Laboratories '
-        "asked how a computer should draw for it, and found that a pixel is best looked at through a hole of "
-        "a particular shape. This page does their experiments over again.</p>"
-        "<p>Every picture here was rendered by weft and every number was measured in those pictures when the "
+        "asked how a computer should draw for it, and found that a pixel is best looked at "
+        "through a hole of a particular shape. This page does their experiments over "
+        "again.</p><p>Every picture here was rendered by weft and every number was measured in "
+        "those pictures when the "
         f'page was built. {told} The <a href="#table">table at the end</a> has them all; before it '
         'come the pictures, and a <a href="#player-section">player</a> that shows what pictures cannot.</p>')
 
@@ -54,19 +56,22 @@ def opening(ctx):
 def closing(ctx, seconds):
     version = ctx.weft.run("--version").strip()
     command = "run.sh --quick" if ctx.quick else "run.sh"
-    return (f"<p>Made by <code>examples/paper/{command}</code> with {html.escape(version)}: {ctx.weft.runs} runs of "
-            f"the program, {seconds:.0f} seconds. The page needs nothing but itself.</p>"
-            "<p>John Amanatides and Don P. Mitchell, <i>Antialiasing of Interlaced Video Animation</i>, Computer "
-            "Graphics 24, 4 (Proceedings of SIGGRAPH 1990). Claims are paraphrased. All light is relative to "
-            "white, after a display of gamma 2.4. The widths of lines, boxes and all other names in "
-            "<code>this type</code> are apertures of weft: <code>weft filters</code> lists them.</p>")
+    return (f"<p>Made by <code>examples/paper/{command}</code> with {html.escape(version)}: "
+            f"{ctx.weft.runs} runs of "
+            f"the program, {seconds:.0f} seconds. The page needs nothing but itself.</p><p>John "
+            "Amanatides and Don P. Mitchell, <i>Antialiasing of Interlaced Video Animation</i>, "
+            "Computer Graphics 24, 4 (Proceedings of SIGGRAPH 1990). Claims are paraphrased. All "
+            "light is relative to white, after a display of gamma 2.4. The widths of lines, boxes "
+            "and all other names in <code>this type</code> are apertures of weft: <code>weft "
+            "filters</code> lists them.</p>")
 
 
 def finish(ctx, player, started):
     """The page from all that was handed in."""
     report = ctx.report
     report.section("table", "The paper says, measured here",
-                   "“Agrees” and “differs” are comparisons made by the program that wrote this page, on the "
+                   "“Agrees” and “differs” are comparisons made by the program that wrote this "
+                   "page, on the "
                    "numbers in the same row.", report.verdicts())
     head, body = opening(ctx), asset("player.html") if player else ""
     return report.html(head, body, closing(ctx, time.monotonic() - started), player or "{}")
@@ -85,7 +90,6 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         ctx = Context(Weft(args.weft, folder), args.quick)
         try:
-            ctx.designs = tuple(n for n in ("crisp", "calm") if n in ctx.weft.run("filters"))
             for name in names:
                 began = time.monotonic()
                 __import__(name).run(ctx)

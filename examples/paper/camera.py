@@ -56,9 +56,9 @@ def run(ctx):
         shape_plot(ctx.figures["shapes"]["ccd"], "time, fields", "Measured weight of the aperture ccd "
                    "in time and height", (2, 3), (420, 320)) +
         "</div><figcaption><b>Figure 4.</b> Left: the boxes of both fields overlap in height and "
-        "follow each other in time. Right: the aperture <code>ccd</code>, measured. A point of light "
-        "flashed at every eighth of a line and of a field, and this is how much of each flash arrived. "
-        "</figcaption></figure>",
+        "follow each other in time. Right: the aperture <code>ccd</code>, measured. A point of "
+        "light flashed at every eighth of a line and of a field, and this is how much of each "
+        "flash arrived. </figcaption></figure>",
         "The paper puts a real camera's picture of a zone plate beside a computed one. There is no "
         "camera here, but there is its construction: every row of sensors rendered on its own, and "
         "pairs added afterwards.",
@@ -67,10 +67,12 @@ def run(ctx):
                     note="Rows of sensors, added in pairs", shape=shape),
             picture(right, "Zone plate through weft's ccd aperture", note="weft, aperture <code>ccd</code>",
                     shape=shape)),
-               f"<b>Figure 5.</b> The same zone plate twice. They differ by {number(difference, 4)} RMS, "
-               f"of white 1; the samples' own noise is {number(noise, 4)}."))
+               "<b>Figure 5.</b> The same zone plate twice. They differ by "
+               f"{number(difference, 4)} RMS, of white 1; the samples' own noise is "
+               f"{number(noise, 4)}."))
     ctx.report.row("Fig. 4, 5", "Ganged CCD rows average a box two lines high and a field long; a synthetic "
                    "box gives the camera's picture.",
-                   f"RMS difference {number(difference, 4)}, noise of the samples {number(noise, 4)}",
+                   f"RMS difference {number(difference, 4)}, noise of the samples "
+                   f"{number(noise, 4)}",
                    difference < 4 * noise and difference < 0.02,
                    "The camera here is a model of one, not the one of the paper.")

@@ -54,9 +54,9 @@ def run(ctx):
     full = pictures.png(pictures.color_rows(woven, frame, range(woven.lines)), color=True, filtered=True)
     ctx.report.section(
         "carousel", "Six figures on a carousel",
-        "The paper's test animation is a carousel at ten turns a minute. Each field is an instant of its "
-        "own: when one frame is frozen, what moves has teeth, because the odd lines are a sixtieth of a "
-        "second older than the even ones. That is how it has to be.",
+        "The paper's test animation is a carousel at ten turns a minute. Each field is an instant "
+        "of its own: when one frame is frozen, what moves has teeth, because the odd lines are a "
+        "sixtieth of a second older than the even ones. That is how it has to be.",
         figure("fig-6", picture(full, "A frame of the carousel: six figures, a striped roof, checkered "
                                 "ground", shape=720 * 10 / 11 / 486) + '<div style="height:16px"></div>' +
                side_by_side(cut(woven, "Enlarged part with serrated edges", "<b>field by field</b>: "
@@ -65,17 +65,21 @@ def run(ctx):
                                 "smooth when frozen"),
                             cut(blurred[1], "The same part with motion blur", "field by field, "
                                 "<b>one field of blur</b>")),
-               f"<b>Figure 6.</b> Frame {number_of}, box aperture, no blur; and the {CROP[0]} by {CROP[1]} "
-               "pixels in which most moves, enlarged. Neighboring lines disagree by "
-               f"{number(teeth[0], 1)} codes on average field by field, {number(teeth[1], 1)} frame by frame."),
-        "In motion it is the other way round. The eye that follows a figure sees both fields where the "
+               f"<b>Figure 6.</b> Frame {number_of}, box aperture, no blur; and the {CROP[0]} by "
+               f"{CROP[1]} pixels in which most moves, enlarged. Neighboring lines disagree by "
+               f"{number(teeth[0], 1)} codes on average field by field, {number(teeth[1], 1)} "
+               "frame by frame."),
+        "In motion it is the other way round. The eye that follows a figure sees both fields "
+        "where the "
         'figure was at their instants, and they fit. How much they do is measured <a href="#judder">below'
         "</a>, with an eye that follows. Blur takes "
         f"detail away: steps from pixel to pixel average {number(sharp[0], 2)} codes without it, "
         f"{number(sharp[1], 2)} with half a field, {number(sharp[2], 2)} with a whole one.")
     ctx.report.row("Fig. 6", "A still frame of an interlaced animation looks serrated.",
-                   f"lines differ from their neighbors by {number(teeth[0], 1)} codes; frame by frame "
+                   f"lines differ from their neighbors by {number(teeth[0], 1)} codes; frame by "
+                   "frame "
                    f"{number(teeth[1], 1)}", teeth[0] > 1.3 * teeth[1])
     ctx.report.row("§4", "The carousel looks sharper without motion blur.",
-                   f"steps between pixels {number(sharp[0], 2)} codes without blur, {number(sharp[1], 2)} "
+                   f"steps between pixels {number(sharp[0], 2)} codes without blur, "
+                   f"{number(sharp[1], 2)} "
                    f"and {number(sharp[2], 2)} with 1/2 and 1 field", sharp[0] > sharp[1] > sharp[2])

@@ -134,24 +134,26 @@ def run(ctx):
     ctx.report.section(
         "judder", "Judder or blur: ask the eye",
         "A thing that moves can be looked at in two ways. An eye that rests sees a row of sharp "
-        "images where there should be a smear: judder. An eye that follows holds the thing still on its "
-        "retina, and there every smear of the shutter is just a loss. Here both eyes are computed from "
-        f"rendered fields. A disc goes past at {SPEED} pixels a field; for the following eye each field is "
-        "put where the eye was looking at its instant.",
+        "images where there should be a smear: judder. An eye that follows holds the thing still "
+        "on its retina, and there every smear of the shutter is just a loss. Here both eyes are "
+        f"computed from rendered fields. A disc goes past at {SPEED} pixels a field; for the "
+        "following eye each field is put where the eye was looking at its instant.",
         figure("judder-views", views(ctx), "What has fallen on the retina after eight fields. Above, the "
-               "eye follows; below, it rests. Film at 24 frames shows each image two or three times, and "
-               "the following eye sees two or three of them side by side."),
+               "eye follows; below, it rests. Film at 24 frames shows each image two or three "
+               "times, and the following eye sees two or three of them side by side."),
         figure("judder-plot", trade_plot(found), "Every temporal width is a place on this curve. "
-               "Down is less judder, left is sharper. No width is at the lower left corner, and 24 frames "
-               "are nowhere near."),
-        f"With 60 fields a window of one field removes strobing altogether ({number(strobe[1], 2)} left) "
-        f"and makes an edge {number(width[1], 1)} pixels wide, which without blur is {number(width[0], 1)}. A "
-        f"filter of four fields, two whole frames, makes it {number(width[4], 1)}, and has nothing "
-        "left to gain. The paper could not recommend a number either: it asks for a knob.",
-        "The same eye answers for the teeth of the carousel. Frozen, the two fields of a frame stand "
-        f"{number(frozen, 1)} pixels apart; for the eye that follows, {number(split, 2)}. If both fields "
-        f"are taken at one instant it is {number(frozen_whole, 2)} frozen and {number(split_whole, 1)} "
-        "for the eye that follows: there the teeth are, in motion, where they hurt.")
+               "Down is less judder, left is sharper. No width is at the lower left corner, and "
+               "24 frames are nowhere near."),
+        f"With 60 fields a window of one field removes strobing altogether ({number(strobe[1], 2)} "
+        f"left) and makes an edge {number(width[1], 1)} pixels wide, which without blur is "
+        f"{number(width[0], 1)}. A filter of four fields, two whole frames, makes it "
+        f"{number(width[4], 1)}, and has nothing left to gain. The paper could not recommend a "
+        "number either: it asks for a knob.",
+        "The same eye answers for the teeth of the carousel. Frozen, the two fields of a frame "
+        f"stand {number(frozen, 1)} pixels apart; for the eye that follows, {number(split, 2)}. If "
+        f"both fields are taken at one instant it is {number(frozen_whole, 2)} frozen and "
+        f"{number(split_whole, 1)} for the eye that follows: there the teeth are, in motion, where "
+        "they hurt.")
     rows(ctx, found, (split, frozen, split_whole, frozen_whole), width, film)
 
 
@@ -161,22 +163,28 @@ def rows(ctx, found, edges, width, film):
     add = ctx.report.row
     add("§4", "Sampled field by field the moving image is fine; sampled frame by frame it is serrated.",
         f"fields apart for the eye that follows: {number(split, 2)} px by fields, "
-        f"{number(split_whole, 1)} px by frames; frozen {number(frozen, 1)} and {number(frozen_whole, 2)}",
+        f"{number(split_whole, 1)} px by frames; frozen {number(frozen, 1)} and "
+        f"{number(frozen_whole, 2)}",
         split < 0.3 < split_whole and frozen_whole < 0.3 < frozen)
     add("§4", "Temporal prefiltering removes judder.",
         f"strobing {number(strobe[0], 2)} at an instant, {number(strobe[0.5], 2)} at half a field, "
         f"{number(strobe[1], 3)} at one", strobe[1] < 0.05 < strobe[0])
     add("§4", "For the eye that follows, blur looks like a smear.",
-        f"edge {number(width[0], 1)} px wide at an instant, {number(width[0.5], 1)}, {number(width[1], 1)} "
+        f"edge {number(width[0], 1)} px wide at an instant, {number(width[0.5], 1)}, "
+        f"{number(width[1], 1)} "
         f"and {number(width[2], 1)} with 1/2, 1 and 2 fields", width[0] < width[0.5] < width[1] < width[2])
     add("§4", "Filters that span many frames give unacceptable blur.",
-        f"four fields: edge {number(width[4], 1)} px wide, strobing {number(strobe[4], 2)}; one field: "
+        f"four fields: edge {number(width[4], 1)} px wide, strobing {number(strobe[4], 2)}; one "
+        "field: "
         f"{number(width[1], 1)} px, {number(strobe[1], 2)}", width[4] > 3 * width[1])
     add("§4", "Judder is less serious in video than in motion pictures.",
-        f"for the following eye: {number(film[0.5]['blur'], 1)} px at 24 frames, 180\N{DEGREE SIGN}, against "
-        f"{number(width[0.5], 1)} px at 60 fields, half a field; strobing of the resting eye "
-        f"{number(film[0.5]['strobe'], 2)} and {number(strobe[0.5], 2)}, but images "
+        f"for the following eye: {number(film[0.5]['blur'], 1)} px at 24 frames, "
+        f"180\N{DEGREE SIGN}, against {number(width[0.5], 1)} px at 60 fields, half a field; "
+        f"strobing of the resting eye {number(film[0.5]['strobe'], 2)} and "
+        f"{number(strobe[0.5], 2)}, but images "
         f"{number(SPEED * 2.5, 0)} px apart instead of {SPEED}", film[0.5]["blur"] > 2 * width[0.5])
     add("§4", "At 10 turns a minute judder was not apparent without blur.",
-        f"strobing {number(strobe[0], 2)} for a resting eye at {SPEED} px a field, none for one that follows",
-        None, "Measured, judder is there; whether it is apparent only viewers can say.")
+        f"a thing at {SPEED} px a field, not the carousel itself: strobing {number(strobe[0], 2)} "
+        "for a resting "
+        "eye, none for one that "
+        "follows", None, "Measured, judder is there; whether it is apparent only viewers can say.")

@@ -69,7 +69,8 @@ def scan_plot(clip, fields, x0, x1):
     middle = clip.lines // 2
     plot = Plot(Axis(-0.6, 11.6, "time, fields of 1/59.94 s", ticks=range(0, 12)),
                 Axis(12.5, -12.5, "y, scan lines", ticks=range(-12, 13, 4)),
-                "Samples of an interlaced picture in time and height: every field has every other line")
+                "Samples of an interlaced picture in time and height: every field has every other "
+                "line")
     plot.parts.append(f'<rect x="{plot.left}" y="{plot.top}" width="{plot.width - plot.left - plot.right}" '
                       f'height="{plot.height - plot.top - plot.bottom}" fill="#14161d"/>')
     for n in range(first, first + 12):
@@ -144,7 +145,8 @@ def spatial(ctx):
 def spatial_plot(levels, xs):
     plot = Plot(Axis(xs[0], xs[-1], "horizontal frequency, cycles a pixel", ticks=(-1, -0.5, 0, 0.5, 1)),
                 Axis(xs[0], xs[-1], "vertical frequency, cycles a line", ticks=(-1, -0.5, 0, 0.5, 1)),
-                "Measured spectrum over x and y: the picture's star again at every sampling frequency",
+                "Measured spectrum over x and y: the picture's star again at every sampling "
+                "frequency",
                 height=400)
     plot.image(heat_of(levels), xs[0], xs[-1], xs[-1], xs[0])
     plot.ring(0, 0, "baseband")
@@ -182,9 +184,10 @@ def run(ctx):
     section(ctx, (xs, ys, found, clips, fields, width), (seconds, plain, shares), (sx, star))
     rows(ctx, seconds, places, (interlaced, plain), flat)
     ctx.report.row("§3", "A pattern brighter on every other line flickers at 30 Hz.",
-                   f"stripes one line high, light 0.1 and 0.8: the fields differ by "
-                   f"{number(stripes['line'], 3)} through <i>line</i>; by {number(stripes['box'], 4)}, "
-                   f"{number(stripes['notch'], 4)}, {number(stripes['shaped'], 4)} through <i>box</i>, "
+                   "stripes one line high, light 0.1 and 0.8: the fields differ by "
+                   f"{number(stripes['line'], 3)} through <i>line</i>; by "
+                   f"{number(stripes['box'], 4)}, {number(stripes['notch'], 4)}, "
+                   f"{number(stripes['shaped'], 4)} through <i>box</i>, "
                    f"<i>notch</i>, <i>shaped</i>", stripes["line"] > 0.5 > 50 * stripes["shaped"])
 
 
@@ -199,32 +202,34 @@ def section(ctx, times, figures, stars):
                        "30 Hz and half a cycle a line", False))
     ctx.report.section(
         "lattice", "Half a picture at a time",
-        "Interlaced video never shows a whole picture. A field has every other line, the next one, a "
-        "sixtieth of a second later, the lines between. In time and height the samples form a "
-        "quincunx, like the five on a die.",
+        "Interlaced video never shows a whole picture. A field has every other line, the next "
+        "one, a sixtieth of a second later, the lines between. In time and height the samples "
+        "form a quincunx, like the five on a die.",
         figure("fig-1", first, "<b>Figure 1.</b> Samples of a bar that sinks slowly, as rendered: "
-               "each dot is the measured light of one scan line in one field. The bar's path between "
-               f"fields says how far apart they are: {number(1000 * seconds, 2)} ms."),
-        "Sampling copies a spectrum to wherever the lattice says. To see that, nine thin bars cross "
-        "the picture, each at its own speed. A steady speed is a slanted line in the spectrum, so "
-        "together they are a fan, and a fan is easy to find again.",
+               "each dot is the measured light of one scan line in one field. The bar's path "
+               f"between fields says how far apart they are: {number(1000 * seconds, 2)} ms."),
+        "Sampling copies a spectrum to wherever the lattice says. To see that, nine thin bars "
+        "cross the picture, each at its own speed. A steady speed is a slanted line in the "
+        "spectrum, so together they are a fan, and a fan is easy to find again.",
         figure("fig-2", second.replace("row n2", "row n2 plots"),
                "<b>Figure 2.</b> The measured (t, y) spectrum, 45 dB from light to dark. Left: "
-               "interlaced. The fan stands again at 60 Hz, at one cycle a line, and at 30 Hz with half "
-               "a cycle a line. Right: the same bars without interlace, where the last one is missing "
-               f"(measured there: {number(decibels(plain), 0)} dB). C marks the color subcarrier of NTSC."),
-        "That replica at the upper right is all the trouble with interlace. What a picture "
-        "has at half a cycle a line comes back at 30 Hz as coarse flicker. How much of it there is "
-        "depends on how the lines were filtered before there were lines: relative to the picture itself, "
-        f"flicker stands at {number(shares['line'], 1)} dB when each looks at one line's height, "
-        f"{number(shares['box'], 1)} dB for two lines and {number(shares['notch'], 1)} dB for the "
-        "paper's smooth filter.",
+               "interlaced. The fan stands again at 60 Hz, at one cycle a line, and at 30 Hz with "
+               "half a cycle a line. Right: the same bars without interlace, where the last one "
+               f"is missing (measured there: {number(decibels(plain), 0)} dB). C marks the color "
+               "subcarrier of NTSC."),
+        "That replica at the upper right is all the trouble with interlace. What a picture has at "
+        "half a cycle a line comes back at 30 Hz as coarse flicker. How much of it there is "
+        "depends on how the lines were filtered before there were lines: relative to the picture "
+        f"itself, flicker stands at {number(shares['line'], 1)} dB when each looks at one line's "
+        f"height, {number(shares['box'], 1)} dB for two lines and {number(shares['notch'], 1)} dB "
+        "for the paper's smooth filter.",
         figure("fig-3", '<div class="row n2 plots">' + spatial_plot(stars[1], stars[0]) +
-               "<div><p>Across the picture nothing is interlaced, and the lattice is the plain one of "
-               "pixels and lines. The star is the spectrum of twelve crossed sticks. Its copies at one "
-               "cycle a pixel and one cycle a line are what ordinary antialiasing keeps apart.</p>"
-               "<p>The four circles C are where NTSC puts color: 35/132 cycles a pixel across and a "
-               "quarter of a cycle a line down. Fine diagonal detail of the picture itself falls into "
+               "<div><p>Across the picture nothing is interlaced, and the lattice is the plain "
+               "one of pixels and lines. The star is the spectrum of twelve crossed sticks. Its "
+               "copies at one cycle a pixel and one cycle a line are what ordinary antialiasing "
+               "keeps apart.</p><p>The four circles C are where NTSC puts color: 35/132 cycles a "
+               "pixel across and a quarter of a cycle a line down. Fine diagonal detail of the "
+               "picture itself falls into "
                'them. <a href="#color">Further down</a> they turn into colored bullseyes.</p></div></div>',
                "<b>Figure 3.</b> The measured (x, y) spectrum of a still picture."))
 
@@ -237,7 +242,8 @@ def rows(ctx, seconds, places, levels, flat):
     x, y, alike, level = places[(0.5, 0.5)]
     ok = abs(x - 0.5) < 0.01 and abs(y - 0.5) < 0.01 and alike > 0.95 and levels[1] < 0.02
     add("Fig. 2", "Interlaced sampling puts a replica of the spectrum at 30 Hz, 0.5 cycles a line.",
-        f"found at {number(x * FIELD_RATE, 1)} Hz, {number(y, 2)} c/line, level {number(level, 1)} dB, "
+        f"found at {number(x * FIELD_RATE, 1)} Hz, {number(y, 2)} c/line, level {number(level, 1)} "
+        "dB, "
         f"correlation {number(alike, 3)}; without interlace {number(decibels(levels[1]), 0)} dB", ok)
     x, y, alike, level = places[(1, 0)]
     x2, y2, alike2, level2 = places[(0, 1)]
@@ -247,6 +253,6 @@ def rows(ctx, seconds, places, levels, flat):
         abs(x - 1) < 0.01 and abs(y2 - 1) < 0.01 and min(alike, alike2) > 0.95)
     (x, y, alike, level), (x2, y2, alike2, level2) = flat[(1, 0)], flat[(0, 1)]
     add("Fig. 3", "In (x, y) the lattice is that of the pixels: no replica between.",
-        f"({number(x, 2)}, {number(y, 2)}) and ({number(x2, 2)}, {number(y2, 2)}) cycles a pixel and "
-        f"a line, {number(level, 1)} and {number(level2, 1)} dB",
+        f"({number(x, 2)}, {number(y, 2)}) and ({number(x2, 2)}, {number(y2, 2)}) cycles a pixel "
+        f"and a line, {number(level, 1)} and {number(level2, 1)} dB",
         abs(x - 1) < 0.03 and abs(y2 - 1) < 0.03 and min(alike, alike2) > 0.95)

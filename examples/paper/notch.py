@@ -67,57 +67,69 @@ def run(ctx):
     box, notch = beyond(heights["box"]), beyond(heights["notch"])
     ctx.report.section(
         "notch", "A notch where it flickers",
-        "The box of two lines has its first zero at half a cycle a line, and that is its whole secret. But "
-        "a box is a crude filter. The paper's answer is a quadratic f, four lines high, with the same zero "
-        "and calmer beyond, and then a beautiful trick: cut a hole of that shape into a card. "
-        "Points that fall into the hole count alike, those outside do not count, as in the facsimile "
-        "machines of 1934.",
+        "The box of two lines has its first zero at half a cycle a line, and that is its whole "
+        "secret. But a box is a crude filter. The paper's answer is a quadratic f, four lines "
+        "high, with the same zero and calmer beyond, and then a beautiful trick: cut a hole of "
+        "that shape into a card. Points that fall into the hole count alike, those outside do not "
+        "count, as in the facsimile machines of 1934.",
         figure("fig-9", maps + '<div style="height:16px"></div><div class="row n2 plots">' +
                profile_plot(shapes) + vertical_plot(ctx, heights) + "</div>",
-               "<b>Figure 9.</b> Apertures as measured with points of light on a grid of 1/8 pixel, lines "
-               "drawn white. Below left: their weight by height, over the paper's f. Below right: their "
-               "responses, dots measured on zone plates, curves in closed form."),
-        f"Hole and weight are the same thing in height: they differ by {number(alike, 4)} RMS. The card's hole "
-        "is two pixels wide in its middle, though, and narrows outward, so that it also tempers fine "
+               "<b>Figure 9.</b> Apertures as measured with points of light on a grid of 1/8 "
+               "pixel, lines drawn white. Below left: their weight by height, over the paper's f. "
+               "Below right: their responses, dots measured on zone plates, curves in closed form."),
+        f"Hole and weight are the same thing in height: they differ by {number(alike, 4)} RMS. The "
+        "card's hole is two pixels wide in its middle, though, and narrows outward, so that it "
+        "also tempers fine "
         'diagonals. That will pay off <a href="#color">with color</a>.',
         figure("fig-10", fields(found["shaped"]["clip"], "shaped"), "<b>Figure 10.</b> The zone plate of Figure 8 "
-               "again, both fields, through <code>shaped</code>. Compare the upper and lower edges."),
-        f"Flicker falls from {percent(share(found, 'line'))} RMS to {percent(share(found, 'notch'))} with "
-        f"<code>notch</code> and {percent(share(found, 'shaped'))} with <code>shaped</code>; <code>box</code> "
-        f"has {percent(share(found, 'box'))}.")
+               "again, both fields, through <code>shaped</code>. Compare the upper and lower "
+               "edges."),
+        f"Flicker falls from {percent(share(found, 'line'))} RMS to "
+        f"{percent(share(found, 'notch'))} with <code>notch</code> and "
+        f"{percent(share(found, 'shaped'))} with <code>shaped</code>; <code>box</code> has "
+        f"{percent(share(found, 'box'))}.")
     frontier(ctx, found)
     add = ctx.report.row
     add("§5", "The box has a zero at 0.5 cycles a line; so has the quadratic filter.",
         f"responses there: box {number(zero['box'], 5)}, notch {number(zero['notch'], 5)}, shaped "
         f"{number(zero['shaped'], 5)}; line {number(zero['line'], 3)}", max(zero["box"], zero["notch"]) < 0.005)
     add("§5", "The notch filter attenuates other high frequencies better than the box.",
-        f"from 0.55 to 1 cycle a line: box {number(decibels(box), 1)} dB, notch {number(decibels(notch), 1)} dB RMS",
+        f"from 0.55 to 1 cycle a line: box {number(decibels(box), 1)} dB, notch "
+        f"{number(decibels(notch), 1)} dB RMS",
         notch < 0.5 * box)
     add("§5, Fig. 9", "Unweighted sampling within a shape of width proportional to f gives a similar result.",
-        f"vertical weights of <i>shaped</i> and <i>notch</i> differ by {number(alike, 4)} RMS, <i>notch</i> "
+        f"vertical weights of <i>shaped</i> and <i>notch</i> differ by {number(alike, 4)} RMS, "
+        "<i>notch</i> "
         f"from f by {number(form, 4)}", alike < 0.01 and form < 0.01)
 
 
 def frontier(ctx, found):
-    plot = costs_plot(found, designed(ctx) if ctx.designs else [])
+    plot = costs_plot(found, designed(ctx))
     line, box = found["line"]["bob"], found["box"]["bob"]
     words = [f"There is no free sharpness. A box two lines high keeps {percent(box['sharpness'], 0)} of a quarter "
-             f"of a cycle a line and flickers by {percent(share(found, 'box'), 1)}; one line high it keeps "
-             f"{percent(line['sharpness'], 0)} and flickers by {percent(share(found, 'line'), 1)}. Lower right "
-             "would be heaven."]
-    if "crisp" in found:
-        crisp = found["crisp"]["bob"]
-        words.append("The paper's shapes are not the last word, though. Today one can ask a computer for the weights "
-                     "that flicker least at a given sharpness. <code>crisp</code> is one of these: "
-                     f"{percent(crisp['sharpness'], 0)} sharp, {percent(share(found, 'crisp'), 1)} flicker. It "
-                     "has weights below zero, which a hole in a card cannot have.")
+             f"of a cycle a line and flickers by {percent(share(found, 'box'), 1)}; one line high "
+             f"it keeps {percent(line['sharpness'], 0)} and flickers by "
+             f"{percent(share(found, 'line'), 1)}. Lower right would be heaven."]
+    crisp = found["crisp"]["bob"]
+    words.append("The paper's shapes are not the last word, though. Today one can ask a computer for the weights "
+                 "that flicker least at a given sharpness. <code>crisp</code> is one of these: "
+                 f"{percent(crisp['sharpness'], 0)} sharp, {percent(share(found, 'crisp'), 1)} "
+                 "flicker. It has weights below zero, which a hole in a card cannot have.")
     ctx.report.section(
         "frontier", "What sharpness costs", *words,
         figure("frontier-plot", plot.svg(), "Flicker of the still zone plate against sharpness. Dots are "
-               "measured by <code>weft measure</code> on rendered fields, curves computed by <code>weft filters "
-               "--frontier</code>."))
+               "measured by <code>weft measure</code> on rendered fields, curves computed by "
+               "<code>weft filters --frontier</code>."))
     ctx.report.row("§5", "There is a tradeoff between flicker and vertical sharpness.",
                    "; ".join(f"<i>{name}</i> {number(found[name]['bob']['sharpness'], 2)} sharp, "
                              f"{percent(share(found, name), 1)} flicker" for name in found),
                    line["sharpness"] > box["sharpness"] and
-                   line["flicker"]["rms"] > box["flicker"]["rms"])
+                   line["flicker"]["rms"] > box["flicker"]["rms"], better(found))
+
+
+def better(found):
+    """What the designed aperture says of the paper's, in words."""
+    box, crisp = found["box"]["bob"], found["crisp"]["bob"]
+    if crisp["sharpness"] > box["sharpness"] and crisp["flicker"]["rms"] < box["flicker"]["rms"]:
+        return "But the paper's apertures do not exhaust it: <i>crisp</i> is sharper and calmer than <i>box</i>."
+    return ""

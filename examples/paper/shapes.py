@@ -111,7 +111,7 @@ SIZE, SPEED, WIDE = 360, 8, 2  # pixels, pixels a field, stretched
 
 def drifting(ctx, aperture, tau, drift=SPEED):
     return ctx.weft.clip("plate", f"{SIZE}x{SIZE}@60p", aperture, tau=tau, wide=WIDE, drift=drift,
-                         position="center", samples=48 if ctx.quick else 128)
+                         position="center", samples=24 if ctx.quick else 128)
 
 
 def temporal_response(clip):

@@ -93,38 +93,43 @@ def run(ctx):
     contour = {name: found[name][30]["contour"] for name in NAMES}
     ctx.report.section(
         "slow-edges", "Edges that drift at thirty lines a second",
-        "The paper finds jaggies most annoying on nearly horizontal edges that move slowly up or down, "
-        "at around 30 scan lines a second. In the time of one field such an edge moves half a line, and the "
-        "lines of the next field are where it would be, or are not.",
+        "The paper finds jaggies most annoying on nearly horizontal edges that move slowly up or "
+        "down, at around 30 scan lines a second. In the time of one field such an edge moves half "
+        "a line, and the lines of the next field are where it would be, or are not.",
         figure("slices", slices(ctx), "An edge that sinks 30 lines a second, in time (24 fields across) and "
-               "height (24 lines). Above: the lines of each field. Below: as a display fills them in. "
-               "The truth is a straight slope. Through <code>line</code> it is a staircase whose steps "
-               "take four fields: a crawl at 15 Hz."),
+               "height (24 lines). Above: the lines of each field. Below: as a display fills them "
+               "in. The truth is a straight slope. Through <code>line</code> it is a staircase "
+               f"whose steps take {number(FIELD_RATE / frequency, 1)} fields: a crawl at "
+               f"{number(frequency, 1)} Hz."),
         "Why thirty? The lines themselves hop one line a field, 60 lines a second. An edge at speed v meets "
         "them anew |v \N{MINUS SIGN} 60|/2 times a second. At rest that is 30 Hz, fast and half hidden. At 30 "
         "lines a second it is 15 Hz, close to where eyes are most sensitive. At 60 it stands still: half the "
         "lines are just missing.",
         figure("wobble-plot", frequency_plot(found), "How often a second the drawn edge swings about its "
-               f"true path, measured at 13 speeds. At 30 lines a second: {number(frequency, 1)} Hz, by up to "
-               f"{number(amount, 2)} lines either way."),
-        "Filtering in height is what helps. Seen from where single lines merge, an edge is where its light "
-        f"ends; that place wobbles by {number(calm['line'], 2)} lines RMS at 30 lines a second through "
-        f"<code>line</code>, by {number(calm['box'], 3)} through <code>box</code>, {number(calm['notch'], 3)} "
-        f"through <code>notch</code> and {number(calm['shaped'], 3)} through <code>shaped</code>. Who sits so "
-        "close as to see lines sees the contour, which depends on how the display fills in what is not "
-        f"there: {number(contour['line'], 2)}, {number(contour['box'], 2)}, {number(contour['notch'], 2)} and "
+               f"true path, measured at 13 speeds. At 30 lines a second: {number(frequency, 1)} "
+               f"Hz, by up to {number(amount, 2)} lines either way."),
+        "Filtering in height is what helps. Seen from where single lines merge, an edge is where "
+        f"its light ends; that place wobbles by {number(calm['line'], 2)} lines RMS at 30 lines a "
+        f"second through <code>line</code>, by {number(calm['box'], 3)} through <code>box</code>, "
+        f"{number(calm['notch'], 3)} through <code>notch</code> and {number(calm['shaped'], 3)} "
+        "through <code>shaped</code>. Who sits so close as to see lines sees the contour, which "
+        f"depends on how the display fills in what is not there: {number(contour['line'], 2)}, "
+        f"{number(contour['box'], 2)}, {number(contour['notch'], 2)} and "
         f"{number(contour['shaped'], 2)} lines.")
     still.rule(ctx, ctx.figures["plates"], ctx.figures["letters"])
-    ctx.report.row("§5", "Moving jaggies are most noticeable on nearly horizontal edges at around 30 scan lines "
+    ctx.report.row("§5", "Moving jaggies are most noticeable on nearly horizontal edges at around 30 "
+                         "scan lines "
                    "a second.",
-                   f"the wobble at 30 lines/s has {number(frequency, 1)} Hz and {number(amount, 2)} lines; at rest "
-                   f"{number(rest['hertz'], 0)} Hz; at 60 lines/s it does not swing",
+                   f"the wobble at 30 lines/s has {number(frequency, 1)} Hz and "
+                   f"{number(amount, 2)} lines; at rest {number(rest['hertz'], 0)} Hz; at 60 "
+                   "lines/s it does not swing",
                    12 < frequency < 18 and amount > 0.2,
                    "That eyes are most sensitive near 15 Hz is not measured here.")
     ctx.report.row("§5", "Less vertical sharpness is the remedy.",
                    f"wobble at 30 lines/s: {number(calm['line'], 3)}, {number(calm['box'], 3)}, "
-                   f"{number(calm['notch'], 3)}, {number(calm['shaped'], 3)} lines RMS of the light through "
-                   "<i>line</i>, <i>box</i>, <i>notch</i>, <i>shaped</i>; of the contour "
-                   f"{number(contour['line'], 2)}, {number(contour['box'], 2)}, {number(contour['notch'], 2)}, "
+                   f"{number(calm['notch'], 3)}, {number(calm['shaped'], 3)} lines RMS of the "
+                   "light through <i>line</i>, <i>box</i>, <i>notch</i>, <i>shaped</i>; of the "
+                   f"contour {number(contour['line'], 2)}, {number(contour['box'], 2)}, "
+                   f"{number(contour['notch'], 2)}, "
                    f"{number(contour['shaped'], 2)}", calm["line"] > 5 * calm["notch"] and
                    contour["line"] > contour["box"] >= contour["notch"] - 0.01)

@@ -15,8 +15,7 @@ def plates(ctx):
     for name in names:
         path = ctx.weft.render("zoneplate", RASTER, name, tau=0, samples=samples)
         found[name] = {"path": path, "clip": ctx.weft.clip_of(path),
-                       "bob": ctx.weft.measure(path, "--chart", "zoneplate"),
-                       "crt": ctx.weft.measure(path, "--display", "crt")}
+                       "bob": ctx.weft.measure(path, "--chart", "zoneplate")}
     return found
 
 
@@ -102,17 +101,21 @@ def crawl_section(ctx, found):
             for name in found]
     ctx.report.section(
         "crawl", "Line crawl: still and yet it moves",
-        "The commonest victim is lettering. These captions do not move. But the rule below them is not "
-        "quite level, and where it steps from one line to the next the display shows the step in one "
-        "field and not in the other, half a line up, half a line down, thirty times a second.",
+        "The commonest victim is lettering. These captions do not move. But the rule below them "
+        "is not quite level, and where it steps from one line to the next the display shows the "
+        "step in one field and not in the other, half a line up, half a line down, thirty times a "
+        "second.",
         figure("crawl-fields", side_by_side(*parts), "The two fields of a still frame, each as a display "
-               "that doubles lines shows it. Through <code>line</code> the rule's steps and the cross "
-               "bars change places with every field. Through <code>shaped</code> both fields tell the same story."),
-        table(("Aperture", "Flicker, RMS", "99.9 % below", "Picture over 2 %", "RMS, lines as on a tube"), rows))
+               "that doubles lines shows it. Through <code>line</code> the rule's steps and the "
+               "cross bars change places with every field. Through <code>shaped</code> both "
+               "fields tell the same story."),
+        table(("Aperture", "Flicker, RMS", "99.9 % below", "Picture over 2 %", "RMS, lines as on a "
+                                                                               "tube"), rows))
     ctx.report.row("§5", "Still pictures show line crawl: moving jaggies, as in the output of poor "
                    "character generators.",
-                   f"still lettering flickers by {percent(share(found, 'line'))} RMS through <i>line</i>, "
-                   f"{percent(share(found, 'box'))} through <i>box</i>, {percent(share(found, 'shaped'))} through "
+                   f"still lettering flickers by {percent(share(found, 'line'))} RMS through "
+                   f"<i>line</i>, {percent(share(found, 'box'))} through <i>box</i>, "
+                   f"{percent(share(found, 'shaped'))} through "
                    "<i>shaped</i>", share(found, "line") > 1.5 * share(found, "shaped"))
 
 
@@ -122,31 +125,36 @@ def figure_8(ctx, found, line, notch):
     maps = {name: flicker_map(found[name]["clip"]) for name in ("line", "box", "shaped")}
     ctx.report.section(
         "still", "Flicker in a picture that stands still",
-        "A zone plate has every fineness there is: rings get finer outward, and at the upper and lower "
-        "edge they reach half a cycle a line, the worst there can be. This one does not move. Each "
-        "field is rendered with a box one scan line high.",
+        "A zone plate has every fineness there is: rings get finer outward, and at the upper and "
+        "lower edge they reach half a cycle a line, the worst there can be. This one does not "
+        "move. Each field is rendered with a box one scan line high.",
         figure("fig-8", fields(found["line"]["clip"], "line"), "<b>Figure 8.</b> Both fields of one "
-               "frame through <code>line</code>. The bullseyes at the top and at the bottom are not in the "
-               "scene, and where one field has white the other has black: there the correlation of "
-               f"the two is {number(line[1], 2)}. A display alternates between these pictures."),
-        "What the eye gets is their difference, thirty times a second. "
-        f"<code>weft measure</code> puts it at {percent(share(found, 'line'))} RMS of white light, and "
-        f"{percent(share(found, 'line', 'bob', 'share'), 1)} of the picture flickers by more than 2 %.",
+               "frame through <code>line</code>. The bullseyes at the top and at the bottom are "
+               "not in the scene, and where one field has white the other has black: there the "
+               f"correlation of the two is {number(line[1], 2)}. A display alternates between "
+               "these pictures."),
+        "What the eye gets is their difference, thirty times a second. <code>weft measure</code> "
+        f"puts it at {percent(share(found, 'line'))} RMS of white light, and "
+        f"{percent(share(found, 'line', 'bob', 'share'), 1)} of the picture flickers by more than "
+        "2 %.",
         figure("flicker-maps", side_by_side(*(
             picture(maps[name][0], f"Map of flicker through {name}",
                     note=f"<b>{name}</b>: {percent(share(found, name))} RMS", shape=720 * 10 / 11 / 486)
             for name in maps)), "Where it flickers: half the difference of both fields, as a display shows "
-            "them that fills in lines. From black, nothing, to pale yellow, a quarter of white. Computed by "
-            f"the page's own program, the first comes to {percent(maps['line'][1])} RMS."))
+            "them that fills in lines. From black, nothing, to pale yellow, a quarter of white. "
+            f"Computed by the page's own program, the first comes to {percent(maps['line'][1])} "
+            "RMS."))
     ctx.figures["maps"] = maps
     ctx.report.row("Fig. 8", "The fields of a still zone plate through a box one line high are complementary "
                    "Moiré patterns that alternate at 30 Hz.",
-                   f"correlation of the fields near half a cycle a line {number(line[1], 3)}, each of "
-                   f"{number(line[0], 3)} RMS; flicker of the picture {percent(share(found, 'line'))} RMS",
+                   f"correlation of the fields near half a cycle a line {number(line[1], 3)}, each "
+                   f"of {number(line[0], 3)} RMS; flicker of the picture "
+                   f"{percent(share(found, 'line'))} RMS",
                    line[1] < -0.9 and line[0] > 0.05)
     ctx.report.row("Fig. 10", "Through the notch filter the flickering Moiré is nearly absent.",
-                   f"Moiré {number(notch[0], 4)} RMS ({number(line[0] / notch[0], 0)} times less); flicker "
-                   f"{percent(share(found, 'notch'))} against {percent(share(found, 'line'))}, over 2 %: "
+                   f"Moiré {number(notch[0], 4)} RMS ({number(line[0] / notch[0], 0)} times less); "
+                   f"flicker {percent(share(found, 'notch'))} against "
+                   f"{percent(share(found, 'line'))}, over 2 %: "
                    f"{percent(share(found, 'notch', 'bob', 'share'), 2)} of the picture against "
                    f"{percent(share(found, 'line', 'bob', 'share'), 1)}",
                    notch[0] < 0.15 * line[0] and share(found, "notch") < 0.5 * share(found, "line"),
@@ -157,7 +165,8 @@ def rule(ctx, found, letters):
     moving = ctx.figures["wobble"]
     names = ("line", "box", "notch", "shaped")
     plot = Plot(Axis(0, 120, "speed of the edge, scan lines a second", ticks=range(0, 121, 30)),
-                Axis(0, 0.6, "wobble of the edge's light, lines RMS"), "Wobble of edges against speed, by aperture",
+                Axis(0, 0.6, "wobble of the edge's light, lines "
+                             "RMS"), "Wobble of edges against speed, by aperture",
                 height=320)
     for k, name in enumerate(names, 1):
         pairs = [(speed, one["light"]) for speed, one in moving[name].items()]
@@ -167,19 +176,21 @@ def rule(ctx, found, letters):
     still, at30 = moving["line"][0]["light"], moving["line"][30]["light"]
     ctx.report.section(
         "rule", "“Sharper when still”: a rule to distrust",
-        "Some would filter only what moves, and let still pictures keep all sharpness lines can carry. "
-        "The paper was not convinced. Measure an edge at every speed from rest to 120 lines a second, "
-        "and see whether rest is special.",
+        "Some would filter only what moves, and let still pictures keep all sharpness lines can "
+        "carry. The paper was not convinced. Measure an edge at every speed from rest to 120 "
+        "lines a second, and see whether rest is special.",
         figure("rule-plot", plot.svg(), "How far an edge strays from its true path, as its lines tell "
                "it. If standing still were harmless, the curves would start at zero."),
-        f"At rest the sharp aperture makes an edge wobble by {number(still, 2)} lines RMS, at 30 lines a "
-        f"second by {number(at30, 2)}. Rest is no refuge; only the frequency changes. And whole pictures "
-        f"at rest: the zone plate flickers by {percent(share(found, 'line'))}, the lettering by "
-        f"{percent(share(letters, 'line'))} RMS through <code>line</code>, against "
-        f"{percent(share(found, 'shaped'))} and {percent(share(letters, 'shaped'))} through <code>shaped</code>.")
+        f"At rest the sharp aperture makes an edge wobble by {number(still, 2)} lines RMS, at 30 "
+        f"lines a second by {number(at30, 2)}. Rest is no refuge; only the frequency changes. And "
+        f"whole pictures at rest: the zone plate flickers by {percent(share(found, 'line'))}, the "
+        f"lettering by {percent(share(letters, 'line'))} RMS through <code>line</code>, against "
+        f"{percent(share(found, 'shaped'))} and {percent(share(letters, 'shaped'))} through "
+        "<code>shaped</code>.")
     ctx.report.row("§5", "Allowing more vertical sharpness for still images is not safe.",
-                   f"edge through <i>line</i>: wobble {number(still, 2)} lines RMS at rest, {number(at30, 2)} at "
-                   f"30 lines/s; still zone plate {percent(share(found, 'line'))}, lettering "
+                   f"edge through <i>line</i>: wobble {number(still, 2)} lines RMS at rest, "
+                   f"{number(at30, 2)} at 30 lines/s; still zone plate "
+                   f"{percent(share(found, 'line'))}, lettering "
                    f"{percent(share(letters, 'line'))}", still > 0.5 * at30 and
                    share(found, "line") > 1.5 * share(found, "shaped"))
 

@@ -54,7 +54,8 @@ def turning_plot(found):
     low, high = -240, 240
     plot = Plot(Axis(0, TOP_RPM, "turns a minute", ticks=range(0, 901, 225)),
                 Axis(low, high, "turns a minute as seen", ticks=(-225, 0, 225)),
-                "Apparent against true speed of an eight-spoked wheel: backwards above 225 turns a minute",
+                "Apparent against true speed of an eight-spoked wheel: backwards above 225 turns "
+                "a minute",
                 420, 340)
     fine = [TOP_RPM * k / 920 for k in range(921)]
     run = []
@@ -104,31 +105,35 @@ def wheel_section(ctx, found):
     example = next(k for k, rpm in enumerate(RPM) if rpm > 390)
     ctx.report.section(
         "wheel", "Wheels that turn backwards",
-        "A wheel with eight spokes looks the same after an eighth of a turn. Once it turns by more than half "
-        "of that between fields, the nearer spoke is the wrong one. With 60 fields a second this happens "
-        "beyond 225 turns a minute.",
+        "A wheel with eight spokes looks the same after an eighth of a turn. Once it turns by "
+        "more than half of that between fields, the nearer spoke is the wrong one. With 60 fields "
+        "a second this happens beyond 225 turns a minute.",
         '<figure id="wheel-plots"><div class="row n2 plots">' + turning_plot(found[0]) + clear_plot(found) +
-        f"</div><figcaption>Left: {len(RPM)} wheels, each at a speed of its own, and how fast they seem to "
-        f"turn. The one at {number(RPM[example], 0)} turns a minute seems to turn at "
-        f"{number(found[0][example][0], 0)}. Right: how clearly the spokes are seen. With a window of one "
-        "field what turns the wrong way has at least grown faint.</figcaption></figure>",
-        f"Where wheels turn backwards ({backwards} of {len(wrong)} here between 235 and 440 turns a "
-        f"minute), spokes keep {number(100 * left[0], 0)} % of their contrast without a window, "
-        f"{number(100 * left[0.5], 0)} % with half a field, {number(100 * left[1], 0)} % with one and "
-        f"{number(100 * left[2], 0)} % with two.")
+        f"</div><figcaption>Left: {len(RPM)} wheels, each at a speed of its own, and how fast they "
+        f"seem to turn. The one at {number(RPM[example], 0)} turns a minute seems to turn at "
+        f"{number(found[0][example][0], 0)}. Right: how clearly the spokes are seen. With a window "
+        "of one field what turns the wrong way has at least grown faint.</figcaption></figure>",
+        f"Where wheels turn backwards ({backwards} of {len(wrong)} here between 235 and 440 turns "
+        f"a minute), spokes keep {number(100 * left[0], 0)} % of their contrast without a window, "
+        f"{number(100 * left[0.5], 0)} % with half a field, {number(100 * left[1], 0)} % with one "
+        f"and {number(100 * left[2], 0)} % with two.")
     ctx.report.section(
         "wings", "Wings, at 25 beats a second",
-        "A hummingbird's wings are up and down again within two or three fields. Taken at an instant "
-        "they are frozen in a pose that means nothing; a window in time turns them into the haze they are.",
-        figure("wings-pictures", crops(ctx), "The scene <code>wheel.lua</code>: a wheel at 150 turns a minute and "
+        "A hummingbird's wings are up and down again within two or three fields. Taken at an "
+        "instant they are frozen in a pose that means nothing; a window in time turns them into "
+        "the haze they are.",
+        figure("wings-pictures", crops(ctx), "The scene <code>wheel.lua</code>: a wheel at 150 turns "
+                                             "a minute and "
                "a bird, one field through four windows."))
     ctx.report.row("§4", "A spinning wheel may seem to turn backwards.",
                    f"at {number(RPM[example], 0)} turns a minute it seems to turn at "
-                   f"{number(found[0][example][0], 0)} (sampling says {number(apparent(RPM[example]), 0)})",
+                   f"{number(found[0][example][0], 0)} (sampling says "
+                   f"{number(apparent(RPM[example]), 0)})",
                    found[0][example][0] < 0)
     ctx.report.row("§4", "Rapid periodic motion demands temporal antialiasing.",
-                   f"contrast of spokes that turn the wrong way: {number(100 * left[0], 0)} % at an instant, "
-                   f"{number(100 * left[0.5], 0)} %, {number(100 * left[1], 0)} %, {number(100 * left[2], 0)} % "
+                   f"contrast of spokes that turn the wrong way: {number(100 * left[0], 0)} % at "
+                   f"an instant, {number(100 * left[0.5], 0)} %, {number(100 * left[1], 0)} %, "
+                   f"{number(100 * left[2], 0)} % "
                    "with 1/2, 1 and 2 fields", left[0] > 0.9 > 0.6 > left[1] > left[2])
 
 
@@ -149,17 +154,19 @@ def own_section(ctx):
     data = pictures.png(pictures.color_rows(clip, 0, range(240), 60, 360), color=True, filtered=True)
     ctx.report.section(
         "per-object", "To each its own shutter",
-        "The paper ends with a wish: let the artist give different objects different amounts of blur. A "
-        "solid in weft may carry its own temporal width. One picture, one render, four balls at the same "
-        f"speed of {speed} pixels a field:",
+        "The paper ends with a wish: let the artist give different objects different amounts of "
+        "blur. A solid in weft may carry its own temporal width. One picture, one render, four "
+        f"balls at the same speed of {speed} pixels a field:",
         figure("own-shutters", '<div class="half">' + picture(data, "Four balls at one speed with four "
-               "lengths of blur", shape=300 / 240) + "</div>", "From the top, <code>temporal_width</code> 0, 1/2, 1 and 2 "
+               "lengths of blur", shape=300 / 240) + "</div>", "From the top, "
+                                                               "<code>temporal_width</code> 0, 1/2, 1 and 2 "
                "field periods. The smear of each, as measured, is "
                f"{', '.join(number(v, 2) for v in lengths)} fields long."))
     ctx.report.row("§7", "Different amounts of temporal filtering for different objects: a future "
                    "consideration.", "asked for 0, 1/2, 1, 2 fields in one picture; streaks measured "
                    f"{', '.join(number(v, 2) for v in lengths)} fields",
-                   all(abs(a - b) < 0.15 for a, b in zip(widths, lengths)), "Done here. A pixel is a sixteenth of a field wide.")
+                   all(abs(a - b) < 0.15 for a, b in zip(widths, lengths)), "Done here. A pixel is a "
+                                                                            "sixteenth of a field wide.")
 
 
 def run(ctx):
