@@ -2,7 +2,7 @@
 import cmath
 
 import pictures
-from analysis import decibels, mean, PI
+from analysis import decibels, PI
 from page import figure, picture, side_by_side, table
 from plots import Axis, Plot, number
 
@@ -120,6 +120,16 @@ def shot(clip, system, note):
                    f"it: {note}", note=note, shape=clip.width * s["aspect"] / clip.lines)
 
 
+def close_up(clip, system, note):
+    """The bullseye at the upper right, enlarged."""
+    x, ys = expected(system, clip.lines)
+    middle, y, half = (round(v) for v in (clip.width / 2 + x, clip.lines / 2 - ys[0],
+                                          73 / SYSTEMS[system]["aspect"]))
+    rows = pictures.color_rows(clip, 0, range(y - 60, y + 60), middle - half, middle + half)
+    return picture(pictures.png(rows, color=True, filtered=True), f"A false bullseye enlarged: {note}",
+                   "pixels", note, 146 / 120)
+
+
 def places_plot(found):
     plot = Plot(Axis(-0.5, 0.5, "horizontal frequency, cycles a pixel", ticks=(-0.5, -0.25, 0, 0.25, 0.5)),
                 Axis(-0.4, 0.4, "vertical frequency, cycles a line", ticks=(-0.25, 0, 0.25)),
@@ -168,6 +178,8 @@ def prose(ctx, clips, careful, figures):
     notes = {"box": "box", "shaped": "shaped"}
     four = side_by_side(*(shot(clips[s, a], s, f"<b>{SYSTEMS[s]['name']}</b>, {notes[a]}")
                           for s in SYSTEMS for a in notes), columns=2)
+    near = side_by_side(*(close_up(clips[s, a], s, f"<b>{SYSTEMS[s]['name']}</b>, {a}, enlarged")
+                          for s in SYSTEMS for a in notes))
     lines = [(f"<code>{a}</code>", *(percent(cross[s, a][key]) for s in SYSTEMS for key in ("rms", "p999")))
              for a in APERTURES + ctx.designs if ("ntsc", a) in cross]
     ctx.report.section(
@@ -176,9 +188,10 @@ def prose(ctx, clips, careful, figures):
         "right in among the luminance. A cheap encoder does not make room for it first. Then fine "
         "detail that happens to look like the subcarrier <i>is</i> color to a television. This "
         "zone plate is grey, every pixel of it.",
-        figure("fig-11", four, "<b>Figure 11.</b> What a set shows of the grey zone plate, after "
+        figure("fig-11", four + '<div style="height:16px"></div>' + near, "<b>Figure 11.</b> What a set shows of the grey zone plate, after "
                "<code>weft composite</code> with a cheap encoder. Above NTSC, below PAL; left "
-               "through <code>box</code>, right through <code>shaped</code>."),
+               "through <code>box</code>, right through <code>shaped</code>; and one bullseye of "
+               "each, enlarged."),
         "The shaped aperture was made against flicker, yet it helps here: it is somewhat like a "
         "diamond, and so it is the diagonals it takes away. At the subcarrier it lets "
         f"{percent(tempered['shaped'], 0)} pass, the box {percent(tempered['box'], 0)}. The "

@@ -2,8 +2,8 @@
 import cmath
 
 import pictures
-from analysis import crossing, edge_width, mean, PI
-from page import figure, picture, side_by_side, table
+from analysis import crossing, edge_width, PI
+from page import figure, picture, side_by_side
 from plots import Axis, Plot, number
 
 SPEED = 8          # pixels a field of 1/59.94 s
@@ -118,8 +118,10 @@ def trade_plot(found):
     plot.points(film, 2, radius=4)
     for (screen, tau), case in found.items():
         if screen != "30 frames":
-            word = f"{number(tau)} fields" if screen == "60 fields" else f"{number(360 * tau)}\N{DEGREE SIGN}"
-            plot.word(case["blur"], case["strobe"], word, series=1 if screen == "60 fields" else 2)
+            word = f"{number(tau)} field{'' if tau == 1 else 's'}" if screen == "60 fields" else f"{number(360 * tau)}\N{DEGREE SIGN}"
+            low = case["strobe"] < 0.05
+            plot.word(case["blur"], case["strobe"], word, anchor="middle" if low else "start",
+                      dx=14 if low else 7, dy=-9 if low else 4, series=1 if screen == "60 fields" else 2)
     return plot.svg()
 
 

@@ -81,7 +81,8 @@ def run(ctx):
         "card's hole is two pixels wide in its middle, though, and narrows outward, so that it "
         "also tempers fine "
         'diagonals. That will pay off <a href="#color">with color</a>.',
-        figure("fig-10", fields(found["shaped"]["clip"], "shaped"), "<b>Figure 10.</b> The zone plate of Figure 8 "
+        figure("fig-10", fields(found["shaped"]["clip"], "shaped"),
+               "<b>Figure 10.</b> The zone plate of Figure 8 "
                "again, both fields, through <code>shaped</code>. Compare the upper and lower "
                "edges."),
         f"Flicker falls from {percent(share(found, 'line'))} RMS to "
@@ -131,5 +132,6 @@ def better(found):
     """What the designed aperture says of the paper's, in words."""
     box, crisp = found["box"]["bob"], found["crisp"]["bob"]
     if crisp["sharpness"] > box["sharpness"] and crisp["flicker"]["rms"] < box["flicker"]["rms"]:
-        return "But the paper's apertures do not exhaust it: <i>crisp</i> is sharper and calmer than <i>box</i>."
+        return ("But the paper's apertures do not exhaust it: <i>crisp</i> is sharper and calmer than "
+                "<i>box</i>.")
     return ""

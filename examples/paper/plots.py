@@ -48,7 +48,7 @@ class Axis:
 class Plot:
     """Axes first; then lines, points, bands, words; then svg()."""
 
-    left, right, top, bottom = 58, 14, 12, 46
+    left, right, top, bottom = 66, 14, 12, 46
 
     def __init__(self, x, y, title, width=560, height=320):
         self.x, self.y, self.title, self.width, self.height = x, y, title, width, height
@@ -146,7 +146,7 @@ class Plot:
     def legend(self):
         if not self.keys:
             return ""
-        items = "".join(f'<li><svg viewBox="0 0 24 10" aria-hidden="true">' + (
+        items = "".join('<li><svg viewBox="0 0 24 10" aria-hidden="true">' + (
             f'<circle class="dot s{series}" cx="12" cy="5" r="3.5"/>' if kind == "dot" else
             f'<line class="line s{series} {kind}" x1="0" x2="24" y1="5" y2="5"/>') +
             f"</svg>{html.escape(text)}</li>" for series, text, kind in self.keys)

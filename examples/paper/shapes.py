@@ -5,7 +5,7 @@ import os
 
 import pictures
 from analysis import decibels, plate_response, rms, sinc
-from plots import Axis, Plot, number
+from plots import Axis, Plot
 
 FINE = 8       # positions a pixel, a line and a field
 BLOCK = 8      # pixels or lines around each point
@@ -118,7 +118,8 @@ def temporal_response(clip):
     """Pairs of cycles a field and response, the horizontal aperture's part taken out."""
     rate = 1 / (WIDE ** 2 * SIZE)
     pairs = plate_response(clip.line(0, SIZE // 2), SIZE / 2, rate)
-    return [(SPEED * f, r / sinc(f)) for f, r in pairs]
+    # Too near the middle the smear is longer than the rings are wide.
+    return [(SPEED * f, r / sinc(f)) for f, r in pairs if f >= 24 * rate]
 
 
 def vertical_response(ctx, aperture, lines=486):

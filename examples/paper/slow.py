@@ -1,8 +1,8 @@
 """Edges that drift: where each field shows them, how far from the truth, and how often a second."""
 import pictures
 import still
-from analysis import crossing, mean, rms, strongest
-from page import figure, picture, side_by_side
+from analysis import crossing, rms, strongest
+from page import figure, picture
 from plots import Axis, Plot, number
 
 FIELD_RATE = 60000 / 1001

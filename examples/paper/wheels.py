@@ -5,7 +5,7 @@ import math
 
 import pictures
 from analysis import PI, edge_width, mean, sinc
-from page import figure, picture, side_by_side, table
+from page import figure, picture, side_by_side
 from plots import Axis, Plot, number
 
 RATE = 60000 / 1001
@@ -151,14 +151,14 @@ def own_section(ctx):
     widths, lengths = (0, 0.5, 1, 2), streaks(ctx, 16)
     clip = ctx.weft.clip("own", "420x240@60p", "box", 1, 8, tau="1/2", speed=speed,
                          samples=64 if ctx.quick else 256)
-    data = pictures.png(pictures.color_rows(clip, 0, range(240), 60, 360), color=True, filtered=True)
+    data = pictures.png(pictures.color_rows(clip, 0, range(240), 40, 360), color=True, filtered=True)
     ctx.report.section(
         "per-object", "To each its own shutter",
         "The paper ends with a wish: let the artist give different objects different amounts of "
         "blur. A solid in weft may carry its own temporal width. One picture, one render, four "
         f"balls at the same speed of {speed} pixels a field:",
         figure("own-shutters", '<div class="half">' + picture(data, "Four balls at one speed with four "
-               "lengths of blur", shape=300 / 240) + "</div>", "From the top, "
+               "lengths of blur", shape=320 / 240) + "</div>", "From the top, "
                                                                "<code>temporal_width</code> 0, 1/2, 1 and 2 "
                "field periods. The smear of each, as measured, is "
                f"{', '.join(number(v, 2) for v in lengths)} fields long."))
