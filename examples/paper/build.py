@@ -39,7 +39,7 @@ def opening(ctx):
     verdicts = [row[3] for row in ctx.report.rows]
     agree, differ = verdicts.count(True), verdicts.count(False)
     told = (f"{len(verdicts)} claims were put to the test. {agree} hold" +
-            (f", {differ} come out otherwise" if differ else "") +
+            (f", {differ} come{'s' * (differ == 1)} out otherwise" if differ else "") +
             f", and {verdicts.count(None)} can only be judged by looking.")
     return (
         '<p class="kicker">Amanatides and Mitchell, SIGGRAPH 1990, rendered and measured again</p>'

@@ -41,7 +41,7 @@ def crop(clip, frame, x, y):
 
 
 def run(ctx):
-    samples, number_of, frame = 4 if ctx.quick else 48, 6, 0
+    samples, number_of, frame = 12 if ctx.quick else 48, 6, 0
     make = lambda raster, tau: ctx.weft.clip("carousel", raster, "box", f"{number_of}-{number_of}", 8,
                                              tau=tau, samples=samples)
     woven, whole = make(WOVEN, 0), make(WHOLE, 0)

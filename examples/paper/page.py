@@ -66,7 +66,9 @@ class Report:
                 f'<th scope=col>Verdict</th></tr></thead><tbody>{"".join(out)}</tbody></table></div>')
 
     def contents(self):
-        return "".join(f'<li><a href="#{name}">{title}</a></li>' for name, title, _ in self.sections)
+        first = [("player-section", "See for yourself", "")]
+        return "".join(f'<li><a href="#{name}">{title}</a></li>' for name, title, _ in
+                       first + self.sections)
 
     def html(self, opening, player, closing, data):
         sections = "".join(f'<section id="{name}" aria-labelledby="{name}-title">'
