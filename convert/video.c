@@ -136,7 +136,8 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
     struct stat about;
     bool there = !stat(path, &about);
     *kind = &wf_video_libav;
-    if (!strcmp(path, "-"))
+    /* What cannot be read twice is not looked into. */
+    if (!strcmp(path, "-") || (there && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)))
         *kind = &wf_video_y4m;
     else if (there ? S_ISDIR(about.st_mode) : wf_sequence_is_pattern(path))
         *kind = &wf_video_pictures;
