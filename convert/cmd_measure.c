@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "convert/cmd.h"
 #include "convert/fail.h"
@@ -10,11 +11,12 @@
 #include "convert/outfile.h"
 #include "convert/plot.h"
 #include "convert/progress.h"
+#include "convert/values.h"
 
 #define MOST_LIMITS 32
 
 typedef struct measure_state {
-    const char *against, *chart, *display, *heatmap, *raster_name, *progress;
+    const char *against, *chart, *display, *heatmap, *raster_name, *progress, *max_memory;
     wf_meter meter;
     wf_cmd_list limits;
     bool json;
@@ -73,7 +75,38 @@ static weft_status read_raster(measure_state *s, weft_error *err) {
     return wf_fail(err, WEFT_USAGE, "%s", why);
 }
 
-static weft_status read_state(measure_state *s, int files, weft_error *err) {
+static bool same_file(const char *a, const char *b) {
+    struct stat x, y;
+    return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+/* Names that would be two things at once. */
+static weft_status check_names(const measure_state *s, int files, char **paths,
+                               weft_error *err) {
+    if (files > 1 && s->heatmap)
+        return wf_fail(err, WEFT_USAGE, "--heatmap draws one file, and %d are given", files);
+    int streams = s->against && !strcmp(s->against, "-");
+    for (int i = 0; i < files; i++) streams += !strcmp(paths[i], "-");
+    if (streams > 1)
+        return wf_fail(err, WEFT_USAGE,
+                       "standard input can be read once, and - is given twice");
+    bool own = s->heatmap && (same_file(s->heatmap, paths[0]) ||
+                              (s->against && same_file(s->heatmap, s->against)));
+    if (!own) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--heatmap %.300s would replace what is measured; give it another name",
+                   s->heatmap);
+}
+
+static weft_status read_memory(measure_state *s, weft_error *err) {
+    if (!s->max_memory || wf_parse_size(s->max_memory, &s->options.max_memory_bytes))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--max-memory: '%.200s' will not do; it takes a size, such as 512M or 4G",
+                   s->max_memory);
+}
+
+static weft_status read_state(measure_state *s, int files, char **paths, weft_error *err) {
     s->options = (wf_measure_options){.against = s->against,
                                       .want_heat = s->heatmap,
                                       .max_memory_bytes = (size_t)2 << 30,
@@ -84,14 +117,14 @@ static weft_status read_state(measure_state *s, int files, weft_error *err) {
             err, WEFT_USAGE,
             "nothing to measure; give a video, a pattern such as frame.####.exr, or - "
             "for Y4M on standard input");
-    if (files > 1 && s->heatmap)
-        return wf_fail(err, WEFT_USAGE, "--heatmap draws one file, and %d are given", files);
     if (!wf_meter_init(&s->meter, s->progress))
         return wf_fail(
             err, WEFT_USAGE,
             "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
             s->progress);
-    weft_status status = read_chart(s->chart, &s->options, err);
+    weft_status status = check_names(s, files, paths, err);
+    if (!status) status = read_memory(s, err);
+    if (!status) status = read_chart(s->chart, &s->options, err);
     if (!status) status = read_display(s->display, &s->options, err);
     if (!status) status = read_raster(s, err);
     return status ? status : read_limits(s, err);
@@ -111,8 +144,7 @@ static double round_up(double value) {
     return 1;
 }
 
-static weft_status draw_heat(const measure_state *s, const char *path, const wf_figures *f,
-                             weft_error *err) {
+static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_error *err) {
     void *symbol;
     wf_plot_heat_fn *draw;
     wf_outfile *file;
@@ -132,7 +164,6 @@ static weft_status draw_heat(const measure_state *s, const char *path, const wf_
     memcpy(&draw, &symbol, sizeof draw);
     status = wf_outfile_open(s->heatmap, true, &file, err);
     if (status) return status;
-    (void)path;
     status = draw(&map, write_piece, file, err);
     if (!status) return wf_outfile_commit(file, err);
     wf_outfile_abandon(file);
@@ -161,7 +192,7 @@ static weft_status measure_one(measure_state *s, const char *path, wf_json *json
     weft_error trouble = {""};
     weft_status status = wf_measure(path, &s->options, &figures, &trouble);
     wf_meter_clear(&s->meter);
-    if (!status && s->heatmap) status = draw_heat(s, path, &figures, &trouble);
+    if (!status && s->heatmap) status = draw_heat(s, &figures, &trouble);
     if (json)
         wf_measure_json(json, path, &figures, status ? trouble.text : NULL);
     else if (!status)
@@ -179,7 +210,7 @@ static weft_status measure_all(measure_state *s, int count, char **paths, weft_e
     if (s->json && count > 1) wf_json_open(&json, NULL, '[');
     for (int i = 0; i < count; i++) {
         weft_status status = measure_one(s, paths[i], s->json ? &json : NULL);
-        if (status) worst = status;
+        if (status > worst) worst = status;
     }
     weft_status printed = s->json ? wf_cmd_print_json(wf_json_finish(&json), err) : WEFT_OK;
     return worst ? worst : printed;
@@ -189,7 +220,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     measure_state state = {0};
     int count = 0;
     weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &count, err);
-    if (!status) status = read_state(&state, count, err);
+    if (!status) status = read_state(&state, count, argv, err);
     return status ? status : measure_all(&state, count, argv, err);
 }
 
@@ -229,6 +260,8 @@ static const wf_cmd_option options[] = {
     {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
       "How to show progress, on standard error.", group},
      .offset = STATE(progress)},
+    {{"max-memory", "SIZE", "2G", "How much memory the frames in hand may take.", group},
+     .offset = STATE(max_memory)},
     {{"json", NULL, NULL, "Print JSON: an object, an array of several files.", group},
      .offset = STATE(json)},
 };

@@ -63,7 +63,7 @@ static void print_order(const wf_figures *f) {
     print_row("field order");
     for (size_t i = 0; f->order_verdict && i < sizeof rows / sizeof *rows; i++)
         if (!strcmp(rows[i].verdict, f->order_verdict)) printf("  %s", rows[i].words);
-    if (!f->order_verdict) printf("  - (a single frame has none)");
+    if (!f->order_verdict) printf("  - (a single frame, or a few lines, have none)");
     if (!isnan(f->order_ratio))
         printf("  (bottom first varies %.3g times as much)", f->order_ratio);
     putchar('\n');
@@ -77,7 +77,7 @@ static void print_difference(const wf_figures *f) {
     print_number("psnr", f->psnr, " dB");
     print_number("ssim", f->ssim, "");
     putchar('\n');
-    for (int p = 0; p < 3; p++)
+    for (int p = 0; p < 3 && f->plane_name[p]; p++)
         for (int which = 0; which < 3; which++) {
             const wf_plane_difference *d = &f->plane[p][which];
             printf("    %-2s %-17s  rmse %-10.4g  psnr %-7.4g dB  ssim %.6f\n",
@@ -137,7 +137,7 @@ static void add_plane(wf_json *json, const char *key, const wf_plane_difference 
 static void add_planes(wf_json *json, const wf_figures *f) {
     if (!f->plane_name[0]) return;
     wf_json_open(json, "planes", '{');
-    for (int p = 0; p < 3; p++) {
+    for (int p = 0; p < 3 && f->plane_name[p]; p++) {
         wf_json_open(json, f->plane_name[p], '{');
         add_plane(json, "frame", &f->plane[p][0]);
         add_plane(json, "top", &f->plane[p][1]);

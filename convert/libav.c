@@ -4,9 +4,11 @@
 #include <inttypes.h>
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/parseutils.h>
 #include <libavutil/pixdesc.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 WEFT_API wf_libav_kind_fn wf_libav_kind;
 
@@ -19,7 +21,9 @@ typedef struct reading {
     int stream;
     bool have; /* frame holds the next one */
     bool drained;
-    uint16_t *code; /* [width] */
+    int64_t packets; /* of the stream, read so far */
+    double end_s;    /* of the last one */
+    uint16_t *code;  /* [width] */
 } reading;
 
 static weft_status failed(const wf_video *v, const char *doing, int code, weft_error *err) {
@@ -33,7 +37,11 @@ static weft_status failed(const wf_video *v, const char *doing, int code, weft_e
 
 static weft_status open_file(wf_video *v, weft_error *err) {
     reading *r = v->state;
-    int code = avformat_open_input(&r->format, v->path, NULL, NULL);
+    char *url = malloc(strlen(v->path) + sizeof "file:"); /* a ':' is no protocol's */
+    if (!url) return wf_video_no_memory(v, err);
+    strcat(strcpy(url, "file:"), v->path);
+    int code = avformat_open_input(&r->format, url, NULL, NULL);
+    free(url);
     if (code < 0)
         return failed(v, "it is no video that libav knows, nor Y4M, v210, uyvy or a picture",
                       code, err);
@@ -63,6 +71,14 @@ static weft_status open_decoder(wf_video *v, weft_error *err) {
 
 /* ---- Frames ---- */
 
+static void note_packet(reading *r) {
+    const AVStream *stream = r->format->streams[r->stream];
+    int64_t start = r->packet->pts != AV_NOPTS_VALUE ? r->packet->pts : r->packet->dts;
+    double end = (double)(start + r->packet->duration) * av_q2d(stream->time_base);
+    r->packets++;
+    if (start != AV_NOPTS_VALUE && end > r->end_s) r->end_s = end;
+}
+
 /* Hands the decoder the next packet of the stream; at the end, that there are no more. */
 static weft_status feed(wf_video *v, weft_error *err) {
     reading *r = v->state;
@@ -74,12 +90,14 @@ static weft_status feed(wf_video *v, weft_error *err) {
     }
     if (code < 0) return failed(v, "it cannot be read to its end", code, err);
     bool damaged = r->packet->flags & AV_PKT_FLAG_CORRUPT;
+    if (r->packet->stream_index == r->stream) note_packet(r);
     if (r->packet->stream_index == r->stream)
         code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
     av_packet_unref(r->packet);
     if (code >= 0) return WEFT_OK;
     char doing[64];
-    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64, v->frame.index);
+    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64,
+             v->frame.index < 0 ? 0 : v->frame.index);
     return failed(v, doing, code, err);
 }
 
@@ -115,6 +133,29 @@ static void label_scan(const reading *r, wf_video_label *label) {
     label->scan_known = !unknown || frame_says;
 }
 
+/* Colors as they are tagged; what is not is the raster's. */
+static void label_color(const reading *r, wf_video_label *label) {
+    static const struct {
+        enum AVColorSpace space;
+        enum AVColorPrimaries primaries; /* AVCOL_PRI_UNSPECIFIED: any */
+        wf_matrix matrix;
+    } rows[] = {{AVCOL_SPC_BT709, AVCOL_PRI_UNSPECIFIED, WF_709},
+                {AVCOL_SPC_BT2020_NCL, AVCOL_PRI_UNSPECIFIED, WF_2020},
+                {AVCOL_SPC_BT470BG, AVCOL_PRI_UNSPECIFIED, WF_601_625},
+                {AVCOL_SPC_SMPTE170M, AVCOL_PRI_BT470BG, WF_601_625},
+                {AVCOL_SPC_SMPTE170M, AVCOL_PRI_UNSPECIFIED, WF_601_525}};
+    const AVFrame *f = r->frame;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !label->matrix_known; i++) {
+        bool any = rows[i].primaries == AVCOL_PRI_UNSPECIFIED;
+        label->matrix_known =
+            f->colorspace == rows[i].space && (any || f->color_primaries == rows[i].primaries);
+        label->matrix = rows[i].matrix;
+    }
+    label->transfer = f->color_trc == AVCOL_TRC_SMPTE2084      ? WF_TRANSFER_PQ
+                      : f->color_trc == AVCOL_TRC_ARIB_STD_B67 ? WF_TRANSFER_HLG
+                                                               : WF_TRANSFER_BT1886;
+}
+
 static weft_status describe_pixels(wf_video *v, weft_error *err) {
     reading *r = v->state;
     const AVPixFmtDescriptor *d = r->pixels =
@@ -132,6 +173,7 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
     info->layout = rgb ? WF_RGB : WF_YCBCR;
     info->bits = d->comp[0].depth;
     info->full_range = rgb || jpeg || r->frame->color_range == AVCOL_RANGE_JPEG;
+    info->planes = d->nb_components < 3 ? 1 : 3;
     info->across = 1 << d->log2_chroma_w;
     info->down = 1 << d->log2_chroma_h;
     return WEFT_OK;
@@ -151,6 +193,7 @@ static void describe_stream(wf_video *v, wf_video_label *label) {
     label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
     label->aspect = ratio_of(r->frame->sample_aspect_ratio);
     label_scan(r, label);
+    label_color(r, label);
 }
 
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
@@ -175,8 +218,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
 static void take_frame(wf_video *v) {
     reading *r = v->state;
     const AVFrame *f = r->frame;
-    int planes = r->pixels->nb_components < 3 ? 1 : 3;
-    for (int p = 0; p < planes; p++)
+    for (int p = 0; p < v->info.planes; p++)
         for (int y = 0; y < v->frame.lines[p]; y++) {
             av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0,
                                 y, p, v->frame.width_px[p], 0, sizeof *r->code);
@@ -197,12 +239,39 @@ static weft_status check_frame(const wf_video *v, weft_error *err) {
                    v->info.lines, r->pixels->name);
 }
 
+/* How long the stream says that it is; 0: it does not. Matroska keeps it in a tag. */
+static double stated_length_s(const reading *r) {
+    const AVStream *stream = r->format->streams[r->stream];
+    const AVDictionaryEntry *tag = av_dict_get(stream->metadata, "DURATION", NULL, 0);
+    int64_t microseconds;
+    if (tag && av_parse_time(&microseconds, tag->value, 1) >= 0)
+        return 1e-6 * (double)microseconds;
+    return r->format->nb_streams == 1 && r->format->duration > 0
+               ? (double)r->format->duration / AV_TIME_BASE
+               : 0;
+}
+
+/* How many packets the file's index has for the stream; 0 where that means something else. */
+static int64_t stated_packets(const reading *r) {
+    const char *format = r->format->iformat->name;
+    const AVStream *stream = r->format->streams[r->stream];
+    if (!strncmp(format, "mov", 3)) return stream->nb_frames;
+    return !strcmp(format, "mxf") && stream->duration > 0 ? stream->duration : 0;
+}
+
+/* libavformat takes a file that was cut for one that has ended. */
 static weft_status check_end(const wf_video *v, weft_error *err) {
-    if (v->info.frames < 0 || v->frame.index >= v->info.frames) return WEFT_OK;
+    const reading *r = v->state;
+    int64_t packets = stated_packets(r);
+    double frame_s = 1 / wf_ratio_value(v->info.raster.frame_rate);
+    bool matroska = !strncmp(r->format->iformat->name, "matroska", 8);
+    double length_s = matroska ? stated_length_s(r) : 0;
+    if (r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
-                   "%s: it ends after %" PRId64 " of the %" PRId64 " frames that it says it "
-                   "has; write it again",
-                   v->path, v->frame.index, v->info.frames);
+                   "%s: it ends after %" PRId64
+                   " frames, before what it says is its end; write "
+                   "it again",
+                   v->path, v->frame.index);
 }
 
 static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {

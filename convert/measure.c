@@ -78,7 +78,8 @@ static weft_status open_reference(measuring *m, weft_error *err) {
     if (a->width_px != b->width_px || a->lines != b->lines)
         return wf_fail(err, WEFT_USAGE, "%s is %dx%d and %s, its reference, %dx%d", m->path,
                        a->width_px, a->lines, m->options->against, b->width_px, b->lines);
-    if (a->layout != b->layout || a->across != b->across || a->down != b->down)
+    if (a->layout != b->layout || a->planes != b->planes || a->across != b->across ||
+        a->down != b->down)
         return wf_fail(err, WEFT_USAGE,
                        "%s is %s and %s, its reference, %s: planes differ; convert one of them",
                        m->path, a->format, m->options->against, b->format);

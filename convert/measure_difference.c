@@ -21,6 +21,7 @@ typedef struct sums {
 
 struct wf_difference {
     wf_layout layout;
+    int planes;
     double scale[3], offset[3]; /* signals to shares of the largest code */
     sums sum[3][3];             /* [plane][lines_of] */
 };
@@ -31,6 +32,7 @@ wf_difference *wf_difference_new(const wf_video_info *info) {
     const wf_encoding e = {
         .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
     d->layout = info->layout;
+    d->planes = info->planes;
     for (int p = 0; p < 3; p++) {
         double zero = 0, unit = 1, most = 1;
         if (info->layout == WF_YCBCR) {
@@ -103,7 +105,7 @@ static void add_similarity(const planes *p, sums *s) {
 
 void wf_difference_add(wf_difference *d, const wf_video_frame *frame,
                        const wf_video_frame *reference) {
-    for (int p = 0; p < 3; p++)
+    for (int p = 0; p < d->planes; p++)
         for (int which = FRAME; which <= BOTTOM; which++) {
             planes both = planes_of(d, frame, reference, p, (lines_of)which);
             add_squares(&both, &d->sum[p][which]);
@@ -124,13 +126,16 @@ static wf_plane_difference figures_of(const sums *s) {
 void wf_difference_finish(const wf_difference *d, wf_figures *figures) {
     static const char *const rgb[3] = {"r", "g", "b"}, *const ycbcr[3] = {"y", "cb", "cr"};
     sums all = {0};
-    for (int p = 0; p < 3; p++) {
+    for (int p = 0; p < d->planes; p++) {
         for (int which = FRAME; which <= BOTTOM; which++)
             figures->plane[p][which] = figures_of(&d->sum[p][which]);
         const sums *s = &d->sum[p][FRAME];
         all.squares += s->squares, all.samples += s->samples;
-        /* planes count by their samples */
-        all.similarity += figures->plane[p][FRAME].ssim * s->samples, all.windows += s->samples;
+        /* planes count by their samples, those too small for a window not at all */
+        if (s->windows > 0) {
+            all.similarity += figures->plane[p][FRAME].ssim * s->samples;
+            all.windows += s->samples;
+        }
         figures->plane_name[p] = (d->layout == WF_YCBCR ? ycbcr : rgb)[p];
     }
     wf_plane_difference whole = figures_of(&all);

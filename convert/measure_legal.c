@@ -12,7 +12,8 @@
 
 typedef struct legal {
     wf_luma luma;
-    float *line; /* R' G' B' */
+    bool all_codes; /* full range: there is nothing outside it */
+    float *line;    /* R' G' B' */
     double outside_range, outside_r103, pixels;
 } legal;
 
@@ -31,6 +32,7 @@ static void *legal_begin(const wf_video_info *info, const wf_measure_options *op
     legal *l = calloc(1, sizeof *l);
     if (!l) return NULL;
     l->luma = luma_of(info->raster.matrix);
+    l->all_codes = info->full_range && info->layout != WF_LINEAR;
     l->line = malloc(3 * (size_t)info->width_px * sizeof *l->line);
     if (l->line) return l;
     legal_free(l);
@@ -42,14 +44,15 @@ static bool beyond(float v, float low, float high) {
 }
 
 /* A pixel is outside if one of the codes that make it is. */
-static double outside_range(const wf_signal *s, int y) {
+static double outside_range(const legal *l, const wf_signal *s, int y) {
     const wf_video_frame *f = &s->coded;
     double count = 0;
+    if (l->all_codes) return 0;
     for (int x = 0; x < s->width_px; x++) {
         bool out = false;
         for (int p = 0; p < 3; p++) {
             bool chroma = s->is_ycbcr && p > 0;
-            int column = p ? x / s->across : x, line = p ? y / s->down : y;
+            int column = p ? x / s->across : x, line = p ? wf_signal_chroma_line(s, y) : y;
             float v = f->plane[p][(size_t)line * (size_t)f->width_px[p] + (size_t)column];
             out |= beyond(v, (chroma ? -0.5f : 0) - ROUNDING, (chroma ? 0.5f : 1) + ROUNDING);
         }
@@ -76,7 +79,7 @@ static void legal_add(void *state, const wf_signal *signal, const wf_signal *bef
     legal *l = state;
     (void)before;
     for (int y = 0; y < signal->lines; y++) {
-        l->outside_range += outside_range(signal, y);
+        l->outside_range += outside_range(l, signal, y);
         l->outside_r103 += outside_r103(l, signal, y);
     }
     l->pixels += (double)signal->width_px * signal->lines;

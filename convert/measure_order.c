@@ -10,11 +10,15 @@
 #define STILL_SHARE 2e-6  /* of the pixels that may move in a still */
 #define WEAVES      0.6 /* fields of one instant: nearer to each other than this many frames, */
 #define EVEN        0.8 /* and as far from the frame before as from the next, to this ratio */
-#define SLOW        0.02 /* of the change in all: distances that only tell of details */
-#define REPEATED    0.1  /* a field that changes this much less than the other is repeated */
-#define CADENCE     5    /* frames in which 2:3 repeats one field of each parity */
-#define PAIRS_LEAST 5    /* of frames, for a cadence to show */
-#define IN_STEP     0.8  /* of the repeats, at the same place of their five */
+#define SLOW        0.02  /* of the change in all: distances that only tell of details */
+#define LEAN        0.005 /* sums of the two orders that differ by less are the same; and with */
+#define LEAN_ALONE  0.05  /* one or two pairs of frames, which cannot agree or differ much */
+#define SURE        1.5   /* times the deviation of the mean */
+#define REPEATED    0.1   /* a field that changes this much less than the other is repeated */
+#define CADENCE     5     /* frames in which 2:3 repeats one field of each parity */
+#define PAIRS_LEAST 5     /* of frames, for a cadence to show */
+#define LINES_LEAST 4     /* of a picture: each line is seen between two others */
+#define IN_STEP     0.8   /* of the repeats, at the same place of their five */
 
 /* Distances between fields, summed over pixels that move: of the two of a frame; of the bottom
  * one and the next frame's top one, which top first shows one after the other; and of the top
@@ -28,6 +32,7 @@ typedef struct distances {
  * nothing; `beside` how far from their mean, for what moves by less than a line. */
 typedef struct order {
     distances outside, beside;
+    double leans, leans_squared; /* of each pair of frames: how much nearer one order is */
     double change, moved, pixels;
     int64_t pairs;               /* of frames between which something moves */
     int64_t repeats[2][CADENCE]; /* [parity][place in the five] */
@@ -91,6 +96,14 @@ static double add_line(order *o, const wf_signal *a, const wf_signal *b, int y) 
     return changes;
 }
 
+static void note_lean(order *o, const distances *earlier) {
+    double down = o->outside.top_bottom - earlier->top_bottom;
+    double up = o->outside.bottom_top - earlier->bottom_top;
+    double lean = down + up > 0 ? (down - up) / (down + up) : 0;
+    o->leans += lean;
+    o->leans_squared += lean * lean;
+}
+
 static void note_repeat(order *o, const double change[2]) {
     for (int parity = 0; parity < 2; parity++)
         if (change[parity] < REPEATED * change[1 - parity])
@@ -101,7 +114,9 @@ static void order_add(void *state, const wf_signal *signal, const wf_signal *bef
     order *o = state;
     if (!before) return;
     double change[2] = {0}, moved = o->moved, pixels = (double)signal->width_px * signal->lines;
+    distances earlier = o->outside;
     for (int y = 1; y < signal->lines - 1; y++) change[y % 2] += add_line(o, before, signal, y);
+    note_lean(o, &earlier);
     o->change += change[0] + change[1];
     o->pixels += pixels;
     o->pairs += o->moved - moved > STILL_SHARE * pixels;
@@ -144,12 +159,21 @@ static const distances *telling(const order *o) {
     return farther(&o->outside) < SLOW * o->change ? &o->beside : &o->outside;
 }
 
+/* Grain makes all fields differ alike. What little is left tells an order only if it leans one
+ * way again and again: by its mean beside the mean's own deviation. */
+static bool leans(const order *o) {
+    double n = (double)o->frame, mean = o->leans / n;
+    if (n < 3) return fabs(mean) > LEAN_ALONE;
+    double variance = fmax(o->leans_squared / n - mean * mean, 0) * n / (n - 1);
+    return fabs(mean) > LEAN && fabs(mean) > SURE * sqrt(variance / n);
+}
+
 static const char *verdict_of(const order *o, const distances *d) {
     if (!(o->moved > STILL_SHARE * o->pixels)) return "still";
     if (is_telecined(o)) return "telecined";
     double nearer = fmin(d->bottom_top, d->top_bottom);
     bool slow = d == &o->beside; /* then details hide how near the two fields are */
-    if (nearer > EVEN * farther(d) && (slow || d->within < WEAVES * nearer))
+    if (nearer > EVEN * farther(d) && (slow || d->within < WEAVES * nearer || !leans(o)))
         return o->fields ? "psf" : "progressive";
     return d->bottom_top < d->top_bottom ? "tff" : "bff";
 }
@@ -158,8 +182,7 @@ static void order_finish(void *state, const wf_signal *last, const wf_signal *be
                          wf_figures *figures) {
     const order *o = state;
     const distances *d = telling(o);
-    (void)last;
-    if (!before) return;
+    if (!before || last->lines < LINES_LEAST) return;
     double top_first = d->within + d->bottom_top, bottom_first = d->within + d->top_bottom;
     figures->order_verdict = verdict_of(o, d);
     figures->order_ratio = top_first > 0      ? bottom_first / top_first

@@ -10,7 +10,15 @@
 
 WEFT_API wf_plot_heat_fn wf_plot_heat;
 
-enum { MARGIN = 24, HEADER = 76, SCALE_WIDTH = 22, SCALE_ROOM = 110, FOOTER = 24, TICKS = 5 };
+enum {
+    MARGIN = 24,
+    HEADER = 76,
+    SCALE_WIDTH = 22,
+    SCALE_ROOM = 110,
+    FOOTER = 24,
+    TICKS = 5,
+    MOST_PIXELS = 30000
+};
 
 /* From black over violet, red and yellow to white: lightness grows all the way, so that it
  * reads without color as well. */
@@ -95,6 +103,10 @@ static void draw_titles(cairo_t *cr, const wf_plot_map *map) {
 weft_status wf_plot_heat(const wf_plot_map *map, wf_plot_write_fn *write, void *to,
                          weft_error *err) {
     double width = fmax(round(map->width_px * map->pixel_aspect), 1);
+    if (width > MOST_PIXELS || map->lines > MOST_PIXELS)
+        return wf_fail(err, WEFT_FAILED,
+                       "the heat map would be %.0f pixels wide and %d high, and %d is the most",
+                       width, map->lines, MOST_PIXELS);
     cairo_surface_t *surface = cairo_image_surface_create(
         CAIRO_FORMAT_RGB24, (int)width + 2 * MARGIN + SCALE_ROOM, map->lines + HEADER + FOOTER);
     cairo_t *cr = cairo_create(surface);

@@ -68,7 +68,7 @@ weft_status wf_signals_new(const wf_video_info *info, wf_signals **out, weft_err
     if (!s) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     s->info = *info;
     s->system = systems[info->raster.matrix];
-    wf_display_init(&s->display, s->system.primaries);
+    wf_display_init(&s->display, s->system.primaries, info->transfer);
     weft_status status = WEFT_OK;
     if (info->layout == WF_LINEAR &&
         !wf_builtin_transform("lin_rec709", s->system.space, &s->transform, why, sizeof why))
@@ -120,10 +120,10 @@ void wf_signal_free(wf_signal *signal) {
 
 /* The chroma line that lies with luma line y. Where lines are halved as well, those of one
  * field go with the lines of the same field. */
-static int chroma_line(const wf_signals *s, int down, int y) {
-    if (down == 1) return y;
-    if (s->info.raster.scan == WF_PROGRESSIVE) return y / down;
-    int lines = (s->info.lines + down - 1) / down, line = y / 2 / down * 2 + y % 2;
+int wf_signal_chroma_line(const wf_signal *s, int y) {
+    if (s->down == 1) return y;
+    if (!s->fields) return y / s->down;
+    int lines = (s->lines + s->down - 1) / s->down, line = y / 2 / s->down * 2 + y % 2;
     return line < lines ? line : lines - 1;
 }
 
@@ -145,10 +145,10 @@ static void spread_line(const float *from, int across, int width_px, float *to) 
     }
 }
 
-static void spread_chroma(const wf_signals *s, const wf_signal *signal, int y) {
+static void spread_chroma(const wf_signal *signal, int y) {
     for (int p = 1; p < 3; p++) {
         const wf_video_frame *f = &signal->coded;
-        int line = chroma_line(s, signal->down, y);
+        int line = wf_signal_chroma_line(signal, y);
         spread_line(f->plane[p] + (size_t)line * (size_t)f->width_px[p], signal->across,
                     signal->width_px, signal->ycbcr[p] + (size_t)y * (size_t)signal->width_px);
     }
@@ -184,7 +184,7 @@ static void take_coded(const wf_signals *s, const wf_signal *signal, int y) {
     size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
     memcpy(signal->ycbcr[0] + at, signal->coded.plane[0] + at, width * sizeof(float));
     if (signal->is_ycbcr) {
-        spread_chroma(s, signal, y);
+        spread_chroma(signal, y);
         return;
     }
     for (int p = 1; p < 3; p++)
@@ -208,6 +208,7 @@ void wf_signals_take(wf_signals *s, const wf_video_frame *frame, wf_signal *sign
     signal->is_ycbcr = s->info.layout != WF_RGB;
     signal->across = linear ? s->across : s->info.across;
     signal->down = s->info.down;
+    signal->fields = s->info.raster.scan != WF_PROGRESSIVE;
     for (int y = 0; y < s->info.lines; y++) {
         if (linear) encode_line(s, frame, y);
         take_coded(s, signal, y);

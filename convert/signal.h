@@ -16,8 +16,12 @@ typedef struct wf_signal {
     /* The planes as they are coded: those of the frame, or what linear light was encoded to. */
     wf_video_frame coded;
     int across, down; /* of coded */
+    bool fields;      /* its chroma lines, where they are fewer, are those of two fields */
     bool is_ycbcr;    /* coded holds Y' Cb Cr; false: R' G' B' */
 } wf_signal;
+
+/* The line of coded's chroma that goes with luma line y. */
+int wf_signal_chroma_line(const wf_signal *signal, int y);
 
 typedef struct wf_signals wf_signals; /* what makes them; one thread at a time */
 

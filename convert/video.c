@@ -104,8 +104,10 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
     const wf_raster *given = v->options.raster;
     wf_video_info *info = &v->info;
     info->scan_known = label->scan_known || given;
+    info->transfer = label->transfer;
     if (!given) {
         find_raster(info, label);
+        if (label->matrix_known) info->raster.matrix = label->matrix;
         return WEFT_OK;
     }
     info->raster = *given;
@@ -145,11 +147,24 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
         return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
     else if (ends_in(path, ".v210") || ends_in(path, ".uyvy"))
         *kind = &wf_video_raw;
+    else if (!about.st_size)
+        return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
     else if (is_y4m(path))
         *kind = &wf_video_y4m;
-    else if (wf_is_exr(path) || wf_name_is_picture(wf_base_name(path)))
+    else if (wf_is_exr(path) ||
+             (wf_name_is_picture(wf_base_name(path)) && !ends_in(path, ".gif")))
         *kind = &wf_video_pictures;
     return WEFT_OK;
+}
+
+/* Those who measure keep twelve floats a pixel, more or less. */
+static weft_status check_memory(const wf_video *v, weft_error *err) {
+    double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
+    if (bytes <= (double)v->options.max_memory_bytes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "%s: frames of %dx%d take %.0f MB, and --max-memory allows %zu MB; allow more", v->path,
+        v->info.width_px, v->info.lines, bytes / (1 << 20), v->options.max_memory_bytes >> 20);
 }
 
 static weft_status make_planes(wf_video *v, weft_error *err) {
@@ -179,11 +194,12 @@ weft_status wf_video_open(const char *path, const wf_video_options *options, wf_
     }
     v->kind = kind;
     v->options = *options;
-    v->info = (wf_video_info){.across = 1, .down = 1, .frames = -1};
+    v->info = (wf_video_info){.planes = 3, .across = 1, .down = 1, .frames = -1};
     v->frame.index = -1;
     wf_video_label label = {0};
     status = kind->open(v, &label, err);
     if (!status) status = settle_raster(v, &label, err);
+    if (!status) status = check_memory(v, err);
     if (!status) status = make_planes(v, err);
     if (status)
         wf_video_close(v);

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_VIDEO_H
 #define WF_CONVERT_VIDEO_H
 
+#include "color/display.h"
 #include "convert/fail.h"
 #include "convert/sink.h"
 
@@ -19,12 +20,14 @@ typedef struct wf_video_info {
     wf_layout layout; /* WF_LINEAR: EXR; WF_RGB: other pictures */
     int bits;         /* of a code; 32: floats; 16 for pictures of unknown depth */
     bool full_range;
-    int across, down; /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */
-    wf_raster raster; /* named by size, rate and label; with the user's or a made up name
-                         where none fits */
-    bool scan_known;  /* the file or the user says how it is scanned: raster.scan is not a
-                         guess */
-    int64_t frames;   /* -1: not known before the end */
+    int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
+    wf_transfer transfer; /* of the display it is made for */
+    int across, down;     /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */
+    wf_raster raster;     /* named by size, rate and label; with the user's or a made up name
+                             where none fits */
+    bool scan_known;      /* the file or the user says how it is scanned: raster.scan is not a
+                             guess */
+    int64_t frames;       /* -1: not known before the end */
 } wf_video_info;
 
 /* Planes R G B or Y Cb Cr, width_px[p] x lines[p], top line first, both fields woven. Signals:

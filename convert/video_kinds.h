@@ -11,6 +11,9 @@ typedef struct wf_video_label {
     bool scan_known, interlaced, top_first;
     wf_rational rate, aspect; /* {0, 0}: not said */
     const char *raster;       /* weft:raster; NULL or "": not said */
+    bool matrix_known;        /* else it is the raster\'s */
+    wf_matrix matrix;
+    wf_transfer transfer;
 } wf_video_label;
 
 typedef struct wf_video_kind {

@@ -112,6 +112,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     info->layout = WF_YCBCR;
     info->bits = h->bits;
     info->full_range = h->full_range;
+    info->planes = h->across ? 3 : 1;
     info->across = h->across ? h->across : 1;
     info->down = h->down ? h->down : 1;
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
@@ -159,7 +160,7 @@ static weft_status y4m_next(wf_video *v, bool *more, weft_error *err) {
     if (!status && *more) status = read_bytes(v, err);
     if (status || !*more) return status;
     const uint8_t *from = s->bytes;
-    for (int p = 0; p < (s->header.across ? 3 : 1); p++) from = take_plane(v, p, from);
+    for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
     return WEFT_OK;
 }
 

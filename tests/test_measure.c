@@ -384,6 +384,36 @@ static void legality(void **state) {
     near_to(m.r103_share, 2 / 8.0, 1e-12);
 }
 
+/* Planes by hand: 16 x 8, 8 bits. */
+static void write_planes(const char *name, const char *header, const uint8_t *bytes,
+                         size_t count) {
+    char path[128];
+    path_of(path, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "YUV4MPEG2 W16 H8 F25:1 %s\nFRAME\n", header);
+    assert_int_equal(fwrite(bytes, 1, count, file), count);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Chroma line 1 of interlaced 4:2:0 is the bottom field's: it goes with luma lines 1 and 3. */
+static void legality_of_fields(void **state) {
+    (void)state;
+    uint8_t bytes[16 * 8 * 3];
+    memset(bytes, 128, sizeof bytes);
+    memset(bytes + 16 * 8 + 8, 250, 8);
+    write_planes("fields.y4m", "It C420", bytes, 16 * 8 * 3 / 2);
+    near_to(measured("fields.y4m", &plain).range_share, 2 / 8.0, 1e-12);
+    memset(bytes + 16 * 2, 5, 16); /* and luma line 2 */
+    write_planes("fields.y4m", "It C420", bytes, 16 * 8 * 3 / 2);
+    near_to(measured("fields.y4m", &plain).range_share, 3 / 8.0, 1e-12);
+    write_planes("whole.y4m", "Ip C420", bytes, 16 * 8 * 3 / 2);
+    near_to(measured("whole.y4m", &plain).range_share, 2 / 8.0, 1e-12);
+    memset(bytes, 0, sizeof bytes);
+    write_planes("full.y4m", "It C444 XCOLORRANGE=FULL", bytes, 16 * 8 * 3);
+    near_to(measured("full.y4m", &plain).range_share, 0, 1e-12);
+}
+
 /* ---- Differences ---- */
 
 static double shade(const void *user, int frame, int x, int y) {
@@ -509,6 +539,7 @@ int main(void) {
         cmocka_unit_test(stills_with_noise),
         cmocka_unit_test(flicker_where_nothing_moves),
         cmocka_unit_test(legality),
+        cmocka_unit_test(legality_of_fields),
         cmocka_unit_test(differences),
         cmocka_unit_test(bad_input),
     };
