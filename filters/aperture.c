@@ -5,10 +5,7 @@
 
 #include "filters/design.h"
 #include "filters/profile.h"
-
-static double sinc(double z) {
-    return z == 0 ? 1 : sin(M_PI * z) / (M_PI * z);
-}
+#include "filters/sinc.h"
 
 static double clamp(double z, double low, double high) {
     return fmin(fmax(z, low), high);
@@ -155,23 +152,23 @@ static double separable_cell_uv(const wf_aperture *a, double u0, double u1, doub
 
 static double line_response(const wf_aperture *a, double tau, double fx, double fy, double ft) {
     (void)a;
-    return sinc(fx) * sinc(fy) * sinc(tau * ft);
+    return wf_sinc(fx) * wf_sinc(fy) * wf_sinc(tau * ft);
 }
 
 static double box_response(const wf_aperture *a, double tau, double fx, double fy, double ft) {
     (void)a;
-    return sinc(fx) * sinc(2 * fy) * sinc(tau * ft);
+    return wf_sinc(fx) * wf_sinc(2 * fy) * wf_sinc(tau * ft);
 }
 
 static double notch_response(const wf_aperture *a, double tau, double fx, double fy,
                              double ft) {
-    return box_response(a, tau, fx, fy, ft) * sinc(fy) * sinc(fy);
+    return box_response(a, tau, fx, fy, ft) * wf_sinc(fy) * wf_sinc(fy);
 }
 
 static double diamond_response(const wf_aperture *a, double tau, double fx, double fy,
                                double ft) {
     (void)a;
-    return sinc(fx) * sinc(fy + tau * ft / 2) * sinc(fy - tau * ft / 2);
+    return wf_sinc(fx) * wf_sinc(fy + tau * ft / 2) * wf_sinc(fy - tau * ft / 2);
 }
 
 typedef double integrand(const wf_aperture *a, double v, double fx);
@@ -196,13 +193,13 @@ static double cosine_integral(const wf_aperture *a, integrand *weight, double fx
 
 static double shaped_integrand(const wf_aperture *a, double v, double fx) {
     (void)a;
-    return notch_f(v) * sinc(4 * notch_f(v) * fx);
+    return notch_f(v) * wf_sinc(4 * notch_f(v) * fx);
 }
 
 static double shaped_response(const wf_aperture *a, double tau, double fx, double fy,
                               double ft) {
     double vertical = cosine_integral(a, shaped_integrand, fx, fy);
-    return vertical * sinc(tau * ft);
+    return vertical * wf_sinc(tau * ft);
 }
 
 static double mitchell_integrand(const wf_aperture *a, double v, double fx) {
@@ -213,12 +210,12 @@ static double mitchell_integrand(const wf_aperture *a, double v, double fx) {
 static double mitchell_response(const wf_aperture *a, double tau, double fx, double fy,
                                 double ft) {
     double vertical = cosine_integral(a, mitchell_integrand, 0, fy);
-    return sinc(fx) * vertical * sinc(tau * ft);
+    return wf_sinc(fx) * vertical * wf_sinc(tau * ft);
 }
 
 static double design_response(const wf_aperture *a, double tau, double fx, double fy,
                               double ft) {
-    return sinc(2 * a->half_u * fx) * wf_stairs_response(&a->stairs, fy) * sinc(tau * ft);
+    return wf_sinc(2 * a->half_u * fx) * wf_stairs_response(&a->stairs, fy) * wf_sinc(tau * ft);
 }
 
 /* ---- The table (resampling.md, Apertures) ---- */

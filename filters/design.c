@@ -6,6 +6,7 @@
 
 #include "filters/flicker.h"
 #include "filters/qp.h"
+#include "filters/sinc.h"
 
 /* Contrast may turn over beyond a quarter of a cycle a line, but no further than this. */
 #define REVERSAL 0.05
@@ -43,16 +44,12 @@ typedef struct program {
     int iterations, solved;
 } program;
 
-static double sinc(double z) {
-    return z == 0 ? 1 : sin(M_PI * z) / (M_PI * z);
-}
-
 /* ---- The program ---- */
 
 /* H(f) is this times the comb. */
 static void response_row(const program *p, double f, double *row) {
     for (int k = 0; k < p->qp.n; k++)
-        row[k] = (k ? 2 : 1) * sinc(2 * f) * cos(2 * M_PI * f * k / WF_STAIRS_STEPS);
+        row[k] = (k ? 2 : 1) * wf_sinc(2 * f) * cos(2 * M_PI * f * k / WF_STAIRS_STEPS);
 }
 
 static void limit(program *p, const double *row, double sign, double most) {
@@ -110,7 +107,7 @@ static void add_square(program *p, const double *row, double weight) {
 static double mean_across(double width) {
     double sum = 0;
     for (int i = 0; i < WF_FLICKER_POINTS; i++) {
-        double seen = sinc(width * wf_flicker_fx(i));
+        double seen = wf_sinc(width * wf_flicker_fx(i));
         sum += seen * seen / WF_FLICKER_POINTS;
     }
     return sum;

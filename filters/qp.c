@@ -8,6 +8,7 @@
 #define LIMIT      1e-9
 #define GAP        1e-7  /* rounding ends it at 1e-8 to 1e-12 .. */
 #define SLOPE      1e-6  /* .. by what it leaves of slopes */
+#define FAIR_GAP   1e-5  /* will do where rounding allows no more */
 #define TO_BORDER  0.995 /* of the way to where a slack or multiplier would vanish */
 
 bool wf_qp_alloc(wf_qp *qp, wf_qp_answer *answer, int n, int m) {
@@ -165,14 +166,14 @@ static bool iterate(const wf_qp *qp, wf_qp_answer *at, work *w) {
     for (int r = 0; r < qp->m; r++) w->s[r] = at->z[r] = 1;
     memset(at->x, 0, (size_t)qp->n * sizeof *at->x);
     at->y = 0;
-    for (at->iterations = 0; at->iterations < MOST_STEPS; at->iterations++) {
+    for (at->iterations = 0;; at->iterations++) {
         bool met = residuals(qp, at, w);
         at->gap = dot(qp->m, w->s, at->z);
         if (met && at->gap < GAP) return true;
-        if (!prepare(qp, at, w)) return false;
+        if (at->iterations == MOST_STEPS || !prepare(qp, at, w))
+            return met && at->gap < FAIR_GAP;
         step(qp, at, w);
     }
-    return false;
 }
 
 wf_qp_end wf_qp_solve(const wf_qp *qp, wf_qp_answer *answer) {

@@ -36,7 +36,8 @@ bool wf_qp_alloc(wf_qp *qp, wf_qp_answer *answer, int n, int m);
 void wf_qp_release(wf_qp *qp);
 
 /* Primal-dual interior point method with Mehrotra's predictor and corrector (1992). Gets stuck
- * where nothing meets the limits. */
+ * where nothing meets the limits, and may where rounding leaves a gap above 1e-5: that it is
+ * stuck proves nothing. */
 wf_qp_end wf_qp_solve(const wf_qp *qp, wf_qp_answer *answer);
 
 #endif

@@ -3,9 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static double sinc(double z) {
-    return z == 0 ? 1 : sin(M_PI * z) / (M_PI * z);
-}
+#include "filters/sinc.h"
 
 int wf_comb_count(double lines) {
     return (int)lround((lines - 1) * WF_STAIRS_STEPS) + 1;
@@ -40,7 +38,7 @@ double wf_stairs_integral(const wf_stairs *stairs, double v) {
 double wf_stairs_response(const wf_stairs *stairs, double f) {
     double sum = 0, phase = 2 * M_PI * f / WF_STAIRS_STEPS;
     for (int i = 0; i < stairs->count; i++) sum += stairs->height[i] * cos(phase * (i + 0.5));
-    return 2.0 / WF_STAIRS_STEPS * sinc(f / WF_STAIRS_STEPS) * sum;
+    return 2.0 / WF_STAIRS_STEPS * wf_sinc(f / WF_STAIRS_STEPS) * sum;
 }
 
 double wf_stairs_power(const wf_stairs *stairs) {
