@@ -7,6 +7,7 @@
 #include "convert/cmd.h"
 #include "convert/fail.h"
 #include "convert/job.h"
+#include "filters/near.h"
 
 typedef struct filters_state {
     const char *plot, *frontier, *input_lines;
@@ -40,7 +41,13 @@ static weft_status ask(const filters_state *state, const weft_job *job, wf_filte
     if (query->name && !wf_aperture_parse(query->name, &query->aperture, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "%s", why);
     if (query->name && !wf_filters_design(query, why, sizeof why))
-        return wf_fail(err, WEFT_FAILED, "%s", why);
+        return wf_fail(err, query->design.no_memory ? WEFT_NO_MEMORY : WEFT_FAILED, "%s", why);
+    if (state->frontier && (query->name || state->plot || state->input_lines))
+        return wf_fail(err, WEFT_USAGE,
+                       "--frontier shows every aperture there is; leave out %s",
+                       query->name   ? query->name
+                       : state->plot ? "--plot"
+                                     : "--input-lines");
     bool fits = !state->input_lines || (wf_ratio_parse(state->input_lines, &lines) &&
                                         lines.den == 1 && lines.num >= 1 && lines.num <= 16384);
     if (!fits)
@@ -62,6 +69,28 @@ static weft_status answer(const filters_state *state, const wf_filters_query *qu
     return WEFT_OK;
 }
 
+/* A word too many: most likely keys that commas should join, or 'design' misspelt. */
+static weft_status refuse(int names, char **name, weft_error *err) {
+    wf_near near = {.text = name[0]};
+    const wf_aperture_kind *kind;
+    char joined[320] = "";
+    if (!strcmp(name[0], "design") || strchr(name[0], '=')) {
+        for (int i = strchr(name[0], '=') ? 0 : 1, used = 0;
+             i < names && used < (int)sizeof joined; i++)
+            used += snprintf(joined + used, sizeof joined - (size_t)used, "%s%s",
+                             used ? "," : "", name[i]);
+        return wf_fail(err, WEFT_USAGE, "put commas between the keys of a design: design %s",
+                       joined);
+    }
+    for (size_t i = 0; strchr(name[1], '=') && (kind = wf_aperture_at(i)); i++)
+        wf_near_offer(&near, kind->name);
+    if (near.best && strcmp(near.best, name[0]) != 0)
+        return wf_fail(err, WEFT_USAGE, "no aperture is called '%.100s'; did you mean %s?",
+                       name[0], near.best);
+    return wf_fail(err, WEFT_USAGE, "one aperture at a time, and '%.200s' is a second",
+                   name[1]);
+}
+
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
     filters_state state = {0};
     wf_filters_query query = {0};
@@ -74,8 +103,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
         snprintf(state.joined, sizeof state.joined, "design:%s", argv[1]);
         query.name = state.joined;
     } else if (!status && names > 1)
-        status = wf_fail(err, WEFT_USAGE, "one aperture at a time, and '%.200s' is a second",
-                         argv[1]);
+        status = refuse(names, argv, err);
     if (!status) status = ask(&state, job, &query, err);
     weft_job_free(job);
     return status ? status : answer(&state, &query, err);
@@ -91,7 +119,7 @@ static const wf_cmd_option options[] = {
      .offset = offsetof(filters_state, plot)},
     {{"frontier", "FILE", NULL,
       "Draw the least flicker there is against sharpness, and where the apertures lie, into a "
-      "PNG file; with --json print it too.",
+      "PNG file, without a NAME; with --json print it too.",
       group},
      .offset = offsetof(filters_state, frontier)},
     {{"json", NULL, NULL, "Print JSON.", group}, .offset = offsetof(filters_state, json)},

@@ -8,14 +8,20 @@
 #include "convert/cmd_filters.h"
 #include "convert/plot.h"
 #include "filters/flicker.h"
+#include "filters/sinc.h"
 
 #define POINTS     49
 #define CURVES     4
 #define MOST_MARKS 32
 
+/* What a curve is the frontier of. */
+typedef struct curve_row {
+    double support, overshoot, width; /* lines to each side; pixels */
+} curve_row;
+
 typedef struct curve {
     char name[96];
-    double overshoot, width;
+    const curve_row *row;
     size_t points;
     double flicker[POINTS], sharpness[POINTS];
 } curve;
@@ -26,11 +32,7 @@ typedef struct frontier {
     size_t marks;
 } frontier;
 
-static const double limits[CURVES][2] = {/* overshoot, width in pixels */
-                                         {0, 1},
-                                         {0.05, 1},
-                                         {0.08, 1},
-                                         {0.08, 1.6}};
+static const curve_row rows[CURVES] = {{4, 0, 1}, {4, 0.05, 1}, {4, 0.08, 1}, {4, 0.08, 1.6}};
 
 /* ---- Named apertures ---- */
 
@@ -46,12 +48,9 @@ static const fir peers[] = {{"ffmpeg linear", {0.5, 0.25, 0}},
 
 static double fir_response(const void *user, double fx, double fy) {
     const fir *f = user;
-    wf_aperture line;
-    char why[64];
-    wf_aperture_parse("line", &line, why, sizeof why);
     double sum = f->tap[0];
     for (int k = 1; k < 3; k++) sum += 2 * f->tap[k] * cos(2 * M_PI * fy * k);
-    return sum * wf_response(&line, 0, fx, fy, 0);
+    return sum * wf_sinc(fx) * wf_sinc(fy);
 }
 
 /* Apertures that are alike share a dot. */
@@ -85,17 +84,19 @@ static void add_marks(frontier *f) {
 
 /* ---- Curves ---- */
 
-static bool solve(const curve *c, double sharp, double flicker, wf_design *design,
-                  weft_error *err) {
-    const wf_design_wish wish = {.support = 4,
-                                 .overshoot = c->overshoot,
+static weft_status solve(const curve *c, double sharp, double flicker, wf_design *design,
+                         weft_error *err) {
+    const wf_design_wish wish = {.support = c->row->support,
+                                 .overshoot = c->row->overshoot,
                                  .alias = WF_DESIGN_ALIAS,
-                                 .width = c->width,
+                                 .width = c->row->width,
                                  .flicker = flicker,
                                  .sharps = flicker > 0 ? 0 : 1,
                                  .sharp = {sharp},
                                  .at = {WF_FILTERS_SHARP_AT}};
-    return wf_design_solve(&wish, design, err->text, sizeof err->text);
+    char why[512];
+    if (wf_design_solve(&wish, design, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, design->no_memory ? WEFT_NO_MEMORY : WEFT_FAILED, "%s", why);
 }
 
 static double sharpness_of(const wf_design *design) {
@@ -103,29 +104,34 @@ static double sharpness_of(const wf_design *design) {
 }
 
 /* From a tenth of the response to the most that there is. */
-static bool trace(curve *c, weft_error *err) {
+static weft_status trace(curve *c, weft_error *err) {
     wf_design design;
-    if (!solve(c, 0, 1, &design, err)) return false;
+    weft_status status = solve(c, 0, 1, &design, err);
+    if (status) return status;
     double most = sharpness_of(&design), least = 0.1;
     c->points = POINTS;
     c->flicker[POINTS - 1] = design.flicker;
     c->sharpness[POINTS - 1] = most;
     for (int i = 0; i < POINTS - 1; i++) {
-        if (!solve(c, least + (most - least) * i / (POINTS - 1), 0, &design, err)) return false;
+        status = solve(c, least + (most - least) * i / (POINTS - 1), 0, &design, err);
+        if (status) return status;
         c->flicker[i] = design.flicker;
         c->sharpness[i] = sharpness_of(&design);
     }
-    return true;
+    return WEFT_OK;
 }
 
 static weft_status find(frontier *f, weft_error *err) {
     for (size_t i = 0; i < CURVES; i++) {
         curve *c = &f->curve[i];
-        c->overshoot = limits[i][0];
-        c->width = limits[i][1];
-        snprintf(c->name, sizeof c->name, "least flicker, overshoot at most %g %%%s",
-                 100 * c->overshoot, c->width > 1 ? ", 1.6 pixels wide" : "");
-        if (!trace(c, err)) return WEFT_FAILED;
+        c->row = &rows[i];
+        int used = snprintf(c->name, sizeof c->name, "least flicker, overshoot at most %g %%",
+                            100 * c->row->overshoot);
+        if (c->row->width > 1)
+            snprintf(c->name + used, sizeof c->name - (size_t)used, ", %g pixels wide",
+                     c->row->width);
+        weft_status status = trace(c, err);
+        if (status) return status;
     }
     add_marks(f);
     return WEFT_OK;
@@ -137,12 +143,16 @@ static weft_status draw(const frontier *f, const char *path, weft_error *err) {
     wf_xy_curve curves[CURVES];
     for (size_t i = 0; i < CURVES; i++) {
         const curve *c = &f->curve[i];
-        curves[i] = (wf_xy_curve){c->name, c->flicker, c->sharpness, c->points, c->width > 1};
+        curves[i] =
+            (wf_xy_curve){c->name, c->flicker, c->sharpness, c->points, c->row->width > 1};
     }
+    char subtitle[128];
+    snprintf(subtitle, sizeof subtitle,
+             "Still zone plate on 525i; designs of %g lines to each side, aliases at most %g",
+             rows[0].support, WF_DESIGN_ALIAS);
     const wf_plot_xy plot = {
         .title = "Flicker and sharpness",
-        .subtitle = "Still zone plate on 525i; designs of 4 lines to each side, aliases at "
-                    "most 0.05",
+        .subtitle = subtitle,
         .x_label = "Interline flicker, RMS (white = 1)",
         .y_label = "Vertical response at 0.25 cycles/line",
         .x_step = 0.02,
@@ -171,9 +181,9 @@ static weft_status print(const frontier *f, weft_error *err) {
     for (size_t i = 0; i < CURVES; i++) {
         const curve *c = &f->curve[i];
         wf_json_open(&json, NULL, '{');
-        wf_json_real(&json, "support", 4);
-        wf_json_real(&json, "overshoot", c->overshoot);
-        wf_json_real(&json, "width", c->width);
+        wf_json_real(&json, "support", c->row->support);
+        wf_json_real(&json, "overshoot", c->row->overshoot);
+        wf_json_real(&json, "width", c->row->width);
         add_numbers(&json, "flicker", c->flicker, c->points);
         add_numbers(&json, "sharpness", c->sharpness, c->points);
         wf_json_close(&json);

@@ -1,12 +1,11 @@
 /* Apertures by name. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "filters/aperture.h"
 #include "filters/design.h"
+#include "filters/fraction.h"
 
 static bool list_names(char *why, size_t why_size, const char *text) {
     const wf_aperture_kind *kind;
@@ -20,21 +19,11 @@ static bool list_names(char *why, size_t why_size, const char *text) {
     return false;
 }
 
-/* Reads "1.5" or "3/2"; *end is where it stopped, text itself if it is no number. */
-static double read_number(const char *text, char **end) {
-    double value = strtod(text, end);
-    if (*end == text || **end != '/') return value;
-    const char *below = *end + 1;
-    value /= strtod(below, end);
-    if (*end == below) *end = (char *)(uintptr_t)text;
-    return value;
-}
-
 /* Reads "B,C" after the colon. Beyond +-10 the cubic's lobes cancel to nothing useful. */
 static bool parse_parameters(const char *text, wf_aperture *out) {
     for (int p = 0; p < out->kind->parameters; p++) {
-        char *end;
-        double value = read_number(text, &end);
+        const char *end;
+        double value = wf_fraction_read(text, &end);
         char follows = p + 1 < out->kind->parameters ? ',' : '\0';
         if (end == text || *end != follows || !(fabs(value) <= 10)) return false;
         out->parameter[p] = value;

@@ -1,6 +1,7 @@
 #include "filters/design.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,7 +33,12 @@
 #define ENOUGH 0.05
 
 #define FLICKER_TOLERANCE 1e-7
+#define NARROWEST         1e-12 /* span of sharpnesses in which it is still looked for */
 #define MOST_PROGRAMS     40
+#define PAST_ALL          4 /* a response beyond any there is */
+
+/* What an answer may be off its limits by. */
+#define OFF 1e-4
 
 /* Unknowns are the comb's numbers. The last limit is that of the last sharpness. */
 typedef struct program {
@@ -41,6 +47,8 @@ typedef struct program {
     wf_qp_answer answer;
     double row[WF_COMB_MOST]; /* of H at the last `at` */
     double scanned_px;        /* mean over fx of sinc(width fx) squared */
+    double part;              /* of flicker and noise that sharpest() left */
+    bool sharpest;            /* the answer is that of sharpest() */
     int iterations, solved;
 } program;
 
@@ -72,16 +80,20 @@ static void limit_overshoot(program *p) {
 }
 
 /* Beyond half the pulses' frequency H is its own mirror image, upside down and weaker:
- * H(8 - f) = -f / (8 - f) H(f). So what is held here, up to 4 cycles a line, is held there. */
+ * H(8 - f) = -f / (8 - f) H(f). So what is held here, up to 4 cycles a line, is held there;
+ * below 1/2, where H may be what it likes, its image is limited instead. */
 static void limit_response(program *p) {
     double row[WF_COMB_MOST], close = 1 / (CLOSER * p->wish->support);
     double alias = p->wish->alias, low = fmin(alias, REVERSAL);
-    for (double f = 0.25; f < WF_STAIRS_STEPS / 2;
+    for (double f = close; f < WF_STAIRS_STEPS / 2;
          f += f < STEEP ? close : 1 / (POINTS_A_LINE * p->wish->support)) {
-        double mirrored = REVERSAL * (WF_STAIRS_STEPS - f) / f;
+        double image = f / (WF_STAIRS_STEPS - f);
         response_row(p, f, row);
-        limit(p, row, -1, BETWEEN * (f > 0.5 ? low : REVERSAL));
-        if (f > 0.5) limit(p, row, 1, BETWEEN * fmin(alias, mirrored));
+        if (f >= 0.25) limit(p, row, -1, BETWEEN * (f > 0.5 ? low : REVERSAL));
+        if (f > 0.5)
+            limit(p, row, 1, BETWEEN * fmin(alias, low / image));
+        else
+            limit(p, row, image, BETWEEN * low);
     }
 }
 
@@ -164,7 +176,7 @@ static double last_response(const program *p) {
     return sum;
 }
 
-/* The most that the last sharpness can be. */
+/* The most that the last sharpness can be, nearly: some flicker and noise is left to tell. */
 static wf_qp_end sharpest(program *p) {
     int n = p->qp.n;
     wf_qp_end end = WF_QP_STUCK;
@@ -173,6 +185,7 @@ static wf_qp_end sharpest(program *p) {
         for (int i = 0; i < n * n; i++) p->qp.q[i] *= part;
         end = least_flicker(p, false);
         for (int i = 0; i < n * n; i++) p->qp.q[i] /= part;
+        p->part = part;
     }
     memset(p->qp.c, 0, (size_t)n * sizeof *p->qp.c);
     return end;
@@ -189,65 +202,136 @@ static double flicker_of(const program *p) {
     return sqrt(sum);
 }
 
-static bool refuse(char *why, size_t why_size, wf_qp_end end, const wf_design_wish *w) {
-    if (end == WF_QP_NO_MEMORY)
-        snprintf(why, why_size, "out of memory");
-    else
-        snprintf(why, why_size,
-                 "design: nothing that reaches %g lines keeps within overshoot=%g and "
-                 "alias=%g%s; give one of them more",
-                 w->support, w->overshoot, w->alias,
-                 w->sharps > 1 ? " and is that sharp elsewhere" : "");
+/* ---- What can be said instead ---- */
+
+typedef struct reason {
+    char *text;
+    size_t size;
+    bool no_memory;
+} reason;
+
+static bool say(reason *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static bool say(reason *why, const char *format, ...) {
+    va_list values;
+    va_start(values, format);
+    vsnprintf(why->text, why->size, format, values);
+    va_end(values);
     return false;
 }
 
-static bool solve_for_sharpness(program *p, char *why, size_t why_size) {
+static bool refuse(reason *why, wf_qp_end end, const wf_design_wish *w) {
+    why->no_memory = end == WF_QP_NO_MEMORY;
+    if (why->no_memory) return say(why, "out of memory");
+    return say(why,
+               "design: nothing that reaches %g lines keeps within overshoot=%g and alias=%g; "
+               "give one of them more",
+               w->support, w->overshoot, w->alias);
+}
+
+static bool lost(reason *why, const wf_design_wish *w) {
+    return say(why,
+               "design: rounding kept the answer from being found; support=%g a half more or "
+               "less, or sharp=%g a little less, may have one",
+               w->support, w->sharp[w->sharps - 1]);
+}
+
+/* The last sharpness is more than the most there is. */
+static bool too_sharp(reason *why, const wf_design_wish *w, double most) {
+    char others[40 * WF_DESIGN_SHARPS] = "";
+    int last = w->sharps - 1, used = 0;
+    for (int i = 0; i < last; i++)
+        used += snprintf(others + used, sizeof others - (size_t)used, "%ssharp=%g,at=%g",
+                         i ? " and " : ", beside ", w->sharp[i], w->at[i]);
+    return say(why,
+               "design: sharp=%g,at=%g is too sharp; %.4f is the most that support=%g, "
+               "overshoot=%g and alias=%g leave%s%s",
+               w->sharp[last], w->at[last], floor(1e4 * most) / 1e4, w->support, w->overshoot,
+               w->alias, others, last ? "; make one less sharp" : "");
+}
+
+static bool solve(program *p, const wf_design_wish *wish, reason *why);
+
+/* The sharpnesses before the last leave nothing: the first of them that does is told of. */
+static bool blame(const wf_design_wish *wish, reason *why) {
+    wf_design_wish fewer = *wish;
+    program p;
+    fewer.sharps--;
+    if (!fewer.sharps) return refuse(why, WF_QP_STUCK, wish);
+    if (!make(&p, &fewer)) return refuse(why, WF_QP_NO_MEMORY, wish);
+    bool solved = solve(&p, &fewer, why);
+    wf_qp_release(&p.qp);
+    return solved ? lost(why, wish) : false;
+}
+
+/* ---- The two questions ---- */
+
+static bool solve_for_sharpness(program *p, reason *why) {
     const wf_design_wish *w = p->wish;
     wf_qp_end end = least_flicker(p, true);
     if (end == WF_QP_SOLVED) return true;
     if (end == WF_QP_STUCK) end = sharpest(p);
-    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, w);
-    int last = w->sharps - 1;
-    snprintf(why, why_size,
-             "design: sharp=%g,at=%g is too sharp; %.4f is the most that support=%g, "
-             "overshoot=%g and alias=%g leave%s",
-             w->sharp[last], w->at[last], floor(1e4 * last_response(p)) / 1e4, w->support,
-             w->overshoot, w->alias, last ? ", beside the other sharpness" : "");
-    return false;
+    if (end == WF_QP_STUCK) return blame(w, why);
+    if (end != WF_QP_SOLVED) return refuse(why, end, w);
+    double most = last_response(p);
+    return most < w->sharp[w->sharps - 1] ? too_sharp(why, w, most) : lost(why, w);
+}
+
+/* An answer that is kept. */
+typedef struct kept {
+    double x[WF_COMB_MOST], gap;
+} kept;
+
+static void keep(const program *p, kept *to) {
+    memcpy(to->x, p->answer.x, (size_t)p->qp.n * sizeof *to->x);
+    to->gap = p->answer.gap;
+}
+
+static void take_back(program *p, const kept *from) {
+    memcpy(p->answer.x, from->x, (size_t)p->qp.n * sizeof *from->x);
+    p->answer.gap = from->gap;
 }
 
 /* Flicker squared is convex in the sharpness and the limit's multiplier is its slope: Newton's
- * steps, and halves where they leave what is known. */
-static bool approach(program *p, double low, double high) {
+ * steps, and halves where they leave what is known. `best` is the answer at low; it is what is
+ * left where rounding keeps the solver from others. */
+static wf_qp_end approach(program *p, double low, double high, kept *best) {
     double target = p->wish->flicker - FLICKER_TOLERANCE / 2, sharp = (low + high) / 2;
-    while (p->solved < MOST_PROGRAMS) {
+    while (p->solved < MOST_PROGRAMS && high - low > NARROWEST) {
         p->qp.h[p->qp.m - 1] = -sharp;
-        bool solved = least_flicker(p, true) == WF_QP_SOLVED;
-        double flicker = solved ? flicker_of(p) : INFINITY;
+        wf_qp_end end = least_flicker(p, true);
+        if (end == WF_QP_NO_MEMORY) return end;
+        double flicker = end == WF_QP_SOLVED ? flicker_of(p) : INFINITY;
         double slope = p->answer.z[p->qp.m - 1] / SCALE;
-        if (fabs(flicker - target) < FLICKER_TOLERANCE / 2) return true;
+        if (fabs(flicker - target) < FLICKER_TOLERANCE / 2) return end;
+        if (flicker < target) keep(p, best);
         *(flicker < target ? &low : &high) = sharp;
         sharp -= (flicker * flicker - target * target) / slope;
         if (!(sharp > low && sharp < high)) sharp = (low + high) / 2;
     }
-    return false;
+    take_back(p, best);
+    return WF_QP_SOLVED;
 }
 
-static bool solve_for_flicker(program *p, char *why, size_t why_size) {
+static bool solve_for_flicker(program *p, reason *why) {
+    kept best;
     wf_qp_end end = least_flicker(p, false);
-    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, p->wish);
+    if (end != WF_QP_SOLVED) return refuse(why, end, p->wish);
     double least = flicker_of(p), low = last_response(p);
-    if (least > p->wish->flicker) {
-        snprintf(why, why_size, "design: flicker=%g is too little; %.4f is the least",
-                 p->wish->flicker, ceil(1e4 * least) / 1e4);
-        return false;
-    }
+    if (least > p->wish->flicker)
+        return say(why, "design: flicker=%g is too little; %.4f is the least", p->wish->flicker,
+                   ceil(1e4 * least) / 1e4);
+    keep(p, &best);
     end = sharpest(p);
-    if (end != WF_QP_SOLVED) return refuse(why, why_size, end, p->wish);
-    if (flicker_of(p) <= p->wish->flicker) return true;
-    if (approach(p, low, last_response(p))) return true;
-    snprintf(why, why_size, "design: no answer was found; another support may have one");
-    return false;
+    p->sharpest = end == WF_QP_SOLVED && flicker_of(p) <= p->wish->flicker;
+    if (p->sharpest) return true;
+    double high = end == WF_QP_SOLVED ? last_response(p) : PAST_ALL;
+    if (end != WF_QP_NO_MEMORY) end = approach(p, low, high, &best);
+    return end == WF_QP_SOLVED ? true : refuse(why, end, p->wish);
+}
+
+static bool solve(program *p, const wf_design_wish *wish, reason *why) {
+    return (wish->sharps ? solve_for_sharpness : solve_for_flicker)(p, why);
 }
 
 /* ---- The certificate ---- */
@@ -256,8 +340,14 @@ static void certify(const program *p, wf_design *d) {
     memcpy(d->comb, p->answer.x, (size_t)p->qp.n * sizeof *d->comb);
     wf_stairs_init(&d->stairs, p->wish->support, d->comb);
     d->flicker = flicker_of(p);
+    d->sharpest = p->sharpest;
     d->gap = p->answer.gap / SCALE;
     d->slack = NOISE * wf_stairs_power(&d->stairs);
+    if (d->sharpest) {
+        double wished = p->wish->flicker, spare = wished * wished - d->flicker * d->flicker;
+        d->gap = p->answer.gap;
+        d->slack = p->part * SCALE * (spare + d->slack);
+    }
     d->iterations = p->iterations;
     d->programs = p->solved;
     for (int i = 1; i <= d->stairs.count; i++)
@@ -270,13 +360,31 @@ static void certify(const program *p, wf_design *d) {
     d->zero = fabs(wf_stairs_response(&d->stairs, 0.5));
 }
 
+/* No answer that breaks a limit is given away: points may lie too far apart for some wish. */
+static bool check(const wf_design *d, const wf_design_wish *w, reason *why) {
+    bool sharp = true;
+    for (int i = 0; i < w->sharps; i++)
+        sharp &= wf_stairs_response(&d->stairs, w->at[i]) > w->sharp[i] - OFF;
+    if (sharp && d->overshoot < w->overshoot + OFF && d->alias < w->alias + OFF &&
+        d->least > -REVERSAL - OFF)
+        return true;
+    return say(why,
+               "design: the answer found breaks its own limits (overshoot %.4f, alias %.4f, "
+               "least response %.4f); wish for less",
+               d->overshoot, d->alias, d->least);
+}
+
 bool wf_design_solve(const wf_design_wish *wish, wf_design *design, char *why,
                      size_t why_size) {
     program p;
+    reason said = {why, why_size, false};
     *design = (wf_design){0};
-    if (!make(&p, wish)) return refuse(why, why_size, WF_QP_NO_MEMORY, wish);
-    bool solved = (wish->sharps ? solve_for_sharpness : solve_for_flicker)(&p, why, why_size);
+    bool solved = make(&p, wish);
+    if (!solved) refuse(&said, WF_QP_NO_MEMORY, wish);
+    solved = solved && solve(&p, wish, &said);
     if (solved) certify(&p, design);
+    solved = solved && check(design, wish, &said);
+    design->no_memory = said.no_memory;
     wf_qp_release(&p.qp);
     return solved;
 }

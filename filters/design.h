@@ -32,8 +32,14 @@ typedef struct wf_design {
     double least;     /* H beyond 1/4 cycle a line */
     double alias;     /* |H| beyond 1/2 */
     double zero;      /* |H| at 1/2 */
-    double gap;       /* of flicker squared: nothing allowed has less by more than this .. */
-    double slack;     /* .. and this, unless it passes twice the noise (wf_stairs_power) */
+    /* Of flicker squared. What keeps the wish's limits and, where flicker was wished, has no
+     * less response at at[0], has less by no more than gap and slack together, unless it passes
+     * more than twice the noise (wf_stairs_power). */
+    double gap, slack;
+    /* The flicker wished leaves the sharpest of all: gap and slack are then of the response at
+     * at[0] instead, which nothing that is allowed, flicker too, has more of (likewise). */
+    bool sharpest;
+    bool no_memory;           /* why there is none */
     int iterations, programs; /* of the solver; programs solved on the way */
 } wf_design;
 
@@ -41,8 +47,9 @@ typedef struct wf_design {
 extern const double wf_comb_crisp[], wf_comb_calm[];
 
 /* "support=4,overshoot=0.08,sharp=0.8,at=0.25". What is not given is 4 lines, 5 % of overshoot
- * and of alias, and 1 pixel; `at` is of the sharp before it, and 0.25 unless given. False with
- * a reason in why. */
+ * and of alias, and 1 pixel; `at` is of the sharp before it, and 0.25 unless given; before a
+ * sharp it may come where there is but one. Numbers may be fractions, "1/2". No key comes
+ * twice, but for sharp=S,at=F pairs. False with a reason in why. */
 bool wf_design_parse(const char *text, wf_design_wish *wish, char *why, size_t why_size);
 
 /* Chooses. Takes some milliseconds, for `flicker` ten times as long; gives the same bits

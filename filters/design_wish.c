@@ -1,10 +1,10 @@
 /* What an aperture is wished to be, in words. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "filters/design.h"
+#include "filters/fraction.h"
 #include "filters/near.h"
 
 typedef struct key_row {
@@ -18,19 +18,33 @@ typedef struct key_row {
 
 /* More sharpness than 1 would be a peak. Of an alias of less than 0.04 the steps' own images,
  * near 8 cycles a line, are in the way. */
+enum { SHARP = 3, AT = 4 };
 static const key_row keys[] = {
     {"support", 1.5, WF_STAIRS_LINES, KEY(support), true},
     {"overshoot", 0, 0.5, KEY(overshoot), false},
     {"flicker", 1e-4, 0.5, KEY(flicker), false},
-    {"sharp", 1e-3, 1, KEY(sharp), false},
-    {"at", 0.01, 0.49, KEY(at), false},
+    [SHARP] = {"sharp", 1e-3, 1, KEY(sharp), false},
+    [AT] = {"at", 0.01, 0.49, KEY(at), false},
     {"alias", 0.04, 1, KEY(alias), false},
     {"width", 1, 4, KEY(width), false},
 };
 #define KEYS (sizeof keys / sizeof *keys)
 
+/* What is being read, and what of it there was. */
+typedef struct reading {
+    wf_design_wish *wish;
+    unsigned given; /* a bit for each key; that of `at` is of the last sharp's */
+    bool at_first;  /* `at` came before any sharp */
+    char *why;
+    size_t why_size;
+} reading;
+
 static bool unknown(const char *name, char *why, size_t why_size) {
     wf_near near = {.text = name};
+    if (!*name) {
+        snprintf(why, why_size, "design: a comma too many; write KEY=VALUE,KEY=VALUE");
+        return false;
+    }
     for (size_t i = 0; i < KEYS; i++) wf_near_offer(&near, keys[i].name);
     int used = snprintf(why, why_size, "design: there is no '%s'; ", name);
     if (near.best)
@@ -41,23 +55,46 @@ static bool unknown(const char *name, char *why, size_t why_size) {
     return false;
 }
 
-/* The number that a key names; NULL if there are more of them than there is room for. */
+static bool refuse(const reading *r, const char *what) {
+    snprintf(r->why, r->why_size, "design: %s", what);
+    return false;
+}
+
+/* Whether a key may come where it does. A new sharp may have an `at` again. */
+static bool in_turn(reading *r, const key_row *row) {
+    wf_design_wish *wish = r->wish;
+    unsigned bit = 1u << (row - keys), at_bit = 1u << AT;
+    bool sharp = row == &keys[SHARP];
+    if (sharp && wish->sharps == WF_DESIGN_SHARPS) return refuse(r, "sharp more than 4 times");
+    if (sharp && wish->sharps && r->at_first)
+        return refuse(r, "of which sharp is the 'at' before them? Write sharp=S,at=F pairs");
+    if (sharp && wish->sharps) r->given &= ~(bit | at_bit);
+    if (r->given & bit && row == &keys[AT])
+        return refuse(r, "'at' twice; write sharp=S,at=F pairs");
+    if (r->given & bit) {
+        snprintf(r->why, r->why_size, "design: '%s' twice; give it once", row->name);
+        return false;
+    }
+    r->given |= bit;
+    r->at_first |= row == &keys[AT] && !wish->sharps;
+    return true;
+}
+
+/* The number that a key names. */
 static double *place_of(const key_row *row, wf_design_wish *wish) {
     double *first = (double *)((char *)wish + row->offset);
-    bool sharp = first == wish->sharp, at = first == wish->at;
-    if (sharp && wish->sharps == WF_DESIGN_SHARPS) return NULL;
-    if (sharp) return first + wish->sharps++;
-    return at && wish->sharps ? first + wish->sharps - 1 : first;
+    if (row == &keys[SHARP]) return first + wish->sharps++;
+    return row == &keys[AT] && wish->sharps ? first + wish->sharps - 1 : first;
 }
 
 static bool read_number(const key_row *row, const char *text, double *value) {
-    char *end;
-    *value = strtod(text, &end);
+    const char *end;
+    *value = wf_fraction_read(text, &end);
     bool whole = !row->halves || 2 * *value == floor(2 * *value);
     return end != text && !*end && *value >= row->low && *value <= row->high && whole;
 }
 
-static bool read_pair(char *pair, wf_design_wish *wish, char *why, size_t why_size) {
+static bool read_pair(char *pair, reading *r) {
     char *value = strchr(pair, '=');
     if (value) *value++ = '\0';
     for (size_t i = 0; value && i < KEYS; i++) {
@@ -65,18 +102,16 @@ static bool read_pair(char *pair, wf_design_wish *wish, char *why, size_t why_si
         double number;
         if (strcmp(row->name, pair) != 0) continue;
         if (!read_number(row, value, &number)) {
-            snprintf(why, why_size, "design: %s='%s' will not do; it takes %s from %g to %g",
-                     pair, value, row->halves ? "lines, whole or half," : "a number", row->low,
-                     row->high);
+            snprintf(r->why, r->why_size,
+                     "design: %s='%s' will not do; it takes %s from %g to %g", pair, value,
+                     row->halves ? "lines, whole or half," : "a number", row->low, row->high);
             return false;
         }
-        double *place = place_of(row, wish);
-        if (place) *place = number;
-        if (!place)
-            snprintf(why, why_size, "design: sharp more than %d times", WF_DESIGN_SHARPS);
-        return place;
+        if (!in_turn(r, row)) return false;
+        *place_of(row, r->wish) = number;
+        return true;
     }
-    return unknown(pair, why, why_size);
+    return unknown(pair, r->why, r->why_size);
 }
 
 static bool check(const wf_design_wish *wish, char *why, size_t why_size) {
@@ -90,6 +125,7 @@ static bool check(const wf_design_wish *wish, char *why, size_t why_size) {
 
 bool wf_design_parse(const char *text, wf_design_wish *wish, char *why, size_t why_size) {
     char copy[256];
+    reading r = {.wish = wish, .why = why, .why_size = why_size};
     *wish =
         (wf_design_wish){.support = 4, .overshoot = 0.05, .alias = WF_DESIGN_ALIAS, .width = 1};
     for (int i = 0; i < WF_DESIGN_SHARPS; i++) wish->at[i] = 0.25;
@@ -101,7 +137,7 @@ bool wf_design_parse(const char *text, wf_design_wish *wish, char *why, size_t w
     for (char *pair = copy, *next; pair && *copy; pair = next) {
         next = strchr(pair, ',');
         if (next) *next++ = '\0';
-        if (!read_pair(pair, wish, why, why_size)) return false;
+        if (!read_pair(pair, &r)) return false;
     }
     return check(wish, why, why_size);
 }
