@@ -34,11 +34,15 @@ typedef struct wf_design {
     double zero;      /* |H| at 1/2 */
     /* Of flicker squared. What keeps the wish's limits and, where flicker was wished, has no
      * less response at at[0], has less by no more than gap and slack together, unless it passes
-     * more than twice the noise (wf_stairs_power). */
+     * more than twice the noise (wf_stairs_power). Responses are held to a fiftieth less than
+     * their limits, for what lies between the frequencies that are looked at. */
     double gap, slack;
     /* The flicker wished leaves the sharpest of all: gap and slack are then of the response at
-     * at[0] instead, which nothing that is allowed, flicker too, has more of (likewise). */
+     * at[0] instead. Nothing allowed that flickers no more has more of it by more than both
+     * (likewise), and nothing that flickers as much as was wished by more than spare besides.
+     */
     bool sharpest;
+    double spare;
     bool no_memory;           /* why there is none */
     int iterations, programs; /* of the solver; programs solved on the way */
 } wf_design;
