@@ -36,20 +36,21 @@ static void print_row(const char *what, double value, const char *note) {
 /* What the duality gap proves is another thing for each kind of wish (filters/design.h). */
 static void print_proof(const wf_filters_query *q) {
     const wf_design *d = &q->design;
-    const wf_design_wish *w = &q->wish;
     double least = sqrt(fmax(d->flicker * d->flicker - d->gap - d->slack, 0));
-    char as_sharp[64] = "";
-    if (!w->sharps)
-        snprintf(as_sharp, sizeof as_sharp, ", as sharp at %g cycles/line,", w->at[0]);
+    double at = q->wish.at[0], most = wf_stairs_response(&d->stairs, at) + d->gap + d->slack;
+    printf("\nNothing within these limits ");
     if (d->sharpest)
-        printf("\nNothing within these limits responds by more than %.4f at %g cycles/line",
-               wf_stairs_response(&d->stairs, w->at[0]) + d->gap + d->slack, w->at[0]);
+        printf("that flickers no more responds by more than %.5f at %g cycles/line\n"
+               "(that flickers as much as was wished: %.5f)",
+               most, at, most + d->spare);
+    else if (!q->wish.sharps)
+        printf("that is as sharp at %g cycles/line flickers less than %.6f\n", at, least);
     else
-        printf("\nNothing within these limits%s flickers less than %.6f", as_sharp, least);
-    printf(" and passes less than\ntwice the noise: the duality gap is %.1e of %s, after %d "
-           "iterations in %d\nquadratic program%s.\n",
-           d->gap, d->sharpest ? "response" : "flicker squared", d->iterations, d->programs,
-           d->programs > 1 ? "s" : "");
+        printf("flickers less than %.6f\n", least);
+    printf("%sand passes less than twice the noise:\nthe duality gap is %.1e of %s, after %d "
+           "iterations in %d quadratic program%s.\n",
+           d->sharpest ? " " : "", d->gap, d->sharpest ? "response" : "flicker squared",
+           d->iterations, d->programs, d->programs > 1 ? "s" : "");
 }
 
 void wf_filters_print_design(const wf_filters_query *q) {
@@ -108,7 +109,7 @@ void wf_filters_add_design(wf_json *json, const wf_filters_query *q) {
     wf_json_real(json, "largest_beyond_half", d->alias);
     wf_json_real(json, "noise", wf_stairs_power(&d->stairs) / q->wish.width);
     wf_json_real(json, "gap", d->sharpest ? NAN : d->gap);
-    wf_json_real(json, "gap_response", d->sharpest ? d->gap + d->slack : NAN);
+    wf_json_real(json, "gap_response", d->sharpest ? d->gap : NAN);
     wf_json_int(json, "iterations", d->iterations);
     wf_json_int(json, "programs", d->programs);
     wf_json_real(json, "step_lines", 1.0 / WF_STAIRS_STEPS);

@@ -163,6 +163,18 @@ check "unknown key" refuses "did you mean support?" filters design suport=3
 check "too sharp" refuses "is the most that support=4" filters design sharp=1
 check "too calm" refuses "is the least" convert --aperture design:flicker=0.001 in.exr -o x.y4m
 check "nothing asked" refuses "design:sharp=0.7" filters design
+check "keys apart" refuses "design sharp=.5,support=3" filters design sharp=.5 support=3
+check "keys apart, without a name" refuses "design sharp=.5,support=3" filters sharp=.5 support=3
+check "design misspelt" refuses "did you mean design?" filters desing sharp=.5
+check "two apertures" refuses "one aperture at a time" filters box notch
+check "what a wish of flicker proves" prints "as sharp at 0.25 cycles/line flickers less than" filters design flicker=.05
+check "what a wish of too much flicker proves" prints "responds by more than" filters design flicker=.5
+check "it as JSON" exits 0 filters design flicker=.5 --json
+check "it is JSON" json
+check "its gap" value "d['design']['gap'] is None and 0 < d['design']['gap_response'] < 1e-5"
+check "a name is not the frontier's" refuses "leave out crisp" filters crisp --frontier no.png
+check "a plot is not the frontier's" refuses "leave out --plot" filters --frontier no.png --plot no.png
+check "neither was drawn" test ! -e no.png
 
 # png FILE: a whole PNG.
 png() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] && tail -c 8 "$1" | grep -q IEND; }

@@ -256,19 +256,29 @@ static void programs_are_solved(void **state) {
 
 /* ---- Designs ---- */
 
-static const char *const wishes[] = {"sharp=0.5",
-                                     "sharp=0.8,overshoot=0.08",
-                                     "sharp=0.95,at=0.125,sharp=0.49",
-                                     "sharp=0.6,overshoot=0",
-                                     "sharp=0.5,support=1.5",
-                                     "sharp=0.5,support=2",
-                                     "sharp=0.7,support=3.5,alias=0.1,width=1.6",
-                                     "sharp=0.9,support=6",
-                                     "sharp=0.6,alias=0.04",
-                                     "sharp=0.7,at=0.2",
-                                     "at=0.2,flicker=0.05",
-                                     "flicker=0.063,overshoot=0.08",
-                                     "flicker=0.04,support=5"};
+static const char *const wishes[] = {
+    "sharp=0.5",
+    "sharp=0.8,overshoot=0.08",
+    "sharp=0.95,at=0.125,sharp=0.49",
+    "sharp=0.6,overshoot=0",
+    "sharp=0.5,support=1.5",
+    "sharp=0.5,support=2",
+    "sharp=0.7,support=3.5,alias=0.1,width=1.6",
+    "sharp=0.9,support=6",
+    "sharp=0.6,alias=0.04",
+    "sharp=0.7,at=0.2",
+    "at=0.2,flicker=0.05",
+    "flicker=0.063,overshoot=0.08",
+    "flicker=0.04,support=5",
+    "sharp=0.325,support=5,overshoot=0",
+    "flicker=0.05,support=6,overshoot=0",
+    "flicker=0.06,at=0.125,overshoot=0",
+    "flicker=0.005,at=0.01,support=5.5,overshoot=0.001,alias=1,width=1.6",
+    "flicker=0.5,at=0.4",
+    "flicker=0.2,at=0.4,support=5,overshoot=0.1,width=4",
+    "sharp=0.35,at=0.45,support=4.5,overshoot=0.1,alias=0.1",
+    "flicker=0.5,at=0.49,support=5.5,overshoot=0.02,alias=1,width=4",
+    "flicker=0.5,at=0.2,support=6,overshoot=0.5,alias=1"};
 #define WISHES (sizeof wishes / sizeof *wishes)
 
 static wf_design solved(const char *text, wf_design_wish *wish) {
@@ -321,7 +331,7 @@ static void designs_keep_their_limits(void **state) {
         assert_true(fabs(response(&d.stairs, 0.5)) < 1e-12 && d.zero < 1e-12);
         assert_true(within(&w, &d.stairs, 1, 5e-4));
         assert_true(d.overshoot <= w.overshoot + 1e-6 && d.alias <= w.alias + 1e-4);
-        assert_true(d.least >= -0.0501 && d.gap >= 0 && d.gap < 1e-8);
+        assert_true(d.least >= -0.0501 && d.gap >= 0 && d.gap < (d.sharpest ? 1e-5 : 3e-8));
         char name[128];
         snprintf(name, sizeof name, "design:%s", wishes[n]);
         wf_aperture a = named(name);
@@ -375,6 +385,64 @@ static void nothing_flickers_less(void **state) {
     assert_true(tried > 20);
 }
 
+/* What can be wished is had, or refused with what is possible, which is less and is had. */
+static void wishes_are_answered(void **state) {
+    static const double most_overshoot[] = {0, 0.05};
+    (void)state;
+    for (int n = 0; n < 2 * 10 * 8; n++) {
+        double part = n % 8 / 8.0, lines = 1.5 + n / 8 % 10 * 0.5;
+        wf_design_wish w = {.support = lines,
+                            .overshoot = most_overshoot[n / 80],
+                            .alias = WF_DESIGN_ALIAS,
+                            .width = 1,
+                            .flicker = 0.03 + 0.04 * part,
+                            .at = {0.25}};
+        wf_design d;
+        char why[512];
+        if (wf_design_solve(&w, &d, why, sizeof why))
+            assert_true(d.flicker <= w.flicker && (d.sharpest || d.flicker > w.flicker - 1e-3));
+        else if (!strstr(why, "is the least"))
+            fail_msg("support=%g,flicker=%g: %s", lines, w.flicker, why);
+        w.flicker = 0;
+        w.sharps = 1;
+        w.sharp[0] = 0.2 + part * 0.8;
+        if (wf_design_solve(&w, &d, why, sizeof why)) continue;
+        const char *most = strstr(why, "too sharp; ");
+        if (!most) fail_msg("support=%g,sharp=%g: %s", lines, w.sharp[0], why);
+        double possible = strtod(most + strlen("too sharp; "), NULL);
+        assert_true(possible < w.sharp[0]);
+        w.sharp[0] = possible - 1e-4;
+        if (!wf_design_solve(&w, &d, why, sizeof why)) fail_msg("%g: %s", lines, why);
+    }
+}
+
+/* A flicker that is wished is the least of what is as sharp, or else nothing is sharper; both
+ * are asked of other designs. */
+static void certificates_are_true(void **state) {
+    static const char *const wished[] = {"flicker=0.05", "flicker=0.5", "flicker=0.5,at=0.4",
+                                         "flicker=0.06,at=0.125,overshoot=0"};
+    (void)state;
+    for (size_t n = 0; n < sizeof wished / sizeof *wished; n++) {
+        wf_design_wish w;
+        wf_design d = solved(wished[n], &w), other;
+        double is = wf_stairs_response(&d.stairs, w.at[0]);
+        char why[512];
+        assert_true(d.sharpest == (d.flicker < w.flicker - 1e-3));
+        w.sharps = 1;
+        w.flicker = 0;
+        for (w.sharp[0] = 0.1; w.sharp[0] < 1.2; w.sharp[0] += 0.01) {
+            if (!wf_design_solve(&w, &other, why, sizeof why)) break;
+            double sharp = wf_stairs_response(&other.stairs, w.at[0]);
+            if (d.sharpest)
+                assert_true(sharp <=
+                            is + d.gap + d.slack + (other.flicker > d.flicker ? d.spare : 0));
+            else if (sharp >= is)
+                assert_true(pow(other.flicker, 2) >= pow(d.flicker, 2) - d.gap - d.slack);
+        }
+        assert_true(w.sharp[0] > fmin(is, 1.1) - 0.02);
+    }
+}
+
 /* More of a limit is never worse; either question is the other's answer. */
 static void limits_have_their_price(void **state) {
     static const char *const dearer[][2] = {{"sharp=0.6", "sharp=0.7"},
@@ -420,7 +488,16 @@ static void words_are_checked(void **state) {
         {"sharp=", "sharp='' will not do"},
         {"sharp=0.5x", "from 0.001 to 1"},
         {"sharp=nan", "from 0.001 to 1"},
-        {"sharp=0.5,,", "there is no ''"},
+        {"sharp=0.5,,", "a comma too many"},
+        {"sharp=0.5,", "a comma too many"},
+        {"sharp=1/0", "from 0.001 to 1"},
+        {"sharp=1/", "from 0.001 to 1"},
+        {"support=2,support=6,sharp=0.5", "'support' twice"},
+        {"flicker=0.05,flicker=0.06", "'flicker' twice"},
+        {"sharp=0.5,at=0.1,at=0.2", "sharp=S,at=F pairs"},
+        {"at=0.1,sharp=0.5,at=0.2", "sharp=S,at=F pairs"},
+        {"at=0.1,at=0.2,flicker=0.05", "sharp=S,at=F pairs"},
+        {"at=0.125,sharp=0.9,sharp=0.5", "sharp=S,at=F pairs"},
         {"sharp=2", "from 0.001 to 1"},
         {"sharp=0.5,at=0.5", "from 0.01 to 0.49"},
         {"sharp=0.5,support=1", "from 1.5 to 6"},
@@ -433,7 +510,8 @@ static void words_are_checked(void **state) {
         {"sharp=1", "the most that support=4"},
         {"sharp=0.9,support=2", "the most that support=2"},
         {"flicker=0.001", "is the least"},
-        {"sharp=0.99,at=0.2,sharp=0.1,overshoot=0", "that sharp elsewhere"}};
+        {"sharp=0.99,at=0.2,sharp=0.1,overshoot=0", "sharp=0.99,at=0.2 is too sharp"},
+        {"sharp=0.5,sharp=0.99,at=0.2,overshoot=0", "sharp=0.5,at=0.25; make one less sharp"}};
     (void)state;
     wf_design_wish w;
     wf_design d;
@@ -447,6 +525,10 @@ static void words_are_checked(void **state) {
         assert_false(wf_design_solve(&w, &d, why, sizeof why));
         if (!strstr(why, vain[n][1])) fail_msg("'%s': %s", vain[n][0], why);
     }
+    wf_design_wish other;
+    assert_true(wf_design_parse("sharp=1/2,at=1/8", &w, why, sizeof why) &&
+                wf_design_parse("at=0.125,sharp=0.5", &other, why, sizeof why));
+    assert_true(w.sharp[0] == 0.5 && w.at[0] == 0.125 && other.at[0] == 0.125);
     char many[600];
     memset(many, ',', sizeof many - 1);
     many[sizeof many - 1] = '\0';
@@ -460,6 +542,8 @@ int main(void) {
         cmocka_unit_test(programs_are_solved),
         cmocka_unit_test(designs_keep_their_limits),
         cmocka_unit_test(nothing_flickers_less),
+        cmocka_unit_test(wishes_are_answered),
+        cmocka_unit_test(certificates_are_true),
         cmocka_unit_test(limits_have_their_price),
         cmocka_unit_test(names_are_what_they_stand_for),
         cmocka_unit_test(words_are_checked),
