@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_CMD_H
 #define WF_CONVERT_CMD_H
 
+#include "convert/progress.h"
 #include "convert/weft.h"
 
 /* The values of an option that may be given several times, borrowed from argv. */
@@ -42,6 +43,20 @@ extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
  * --name=value, -x value and -xvalue, in any order; -- ends the options. */
 weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, weft_job *job,
                          int *operand_count, weft_error *err);
+
+/* Which of the words of `takes` ("a|b|c") the value of --name is: *index gets it, and keeps
+ * what it is where nothing was given. */
+weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,
+                          weft_error *err);
+
+/* The option --progress, and a meter in the style it names; quiet: of none. */
+#define WF_CMD_PROGRESS(group)                                                                 \
+    {                                                                                          \
+        "progress", WF_CMD_PROGRESS_STYLES, "tty on a terminal, else none",                    \
+            "How to show progress, on standard error.", group                                  \
+    }
+#define WF_CMD_PROGRESS_STYLES "tty|plain|alf|json|none"
+weft_status wf_cmd_meter(wf_meter *meter, const char *style, bool quiet, weft_error *err);
 
 void wf_cmd_help(const wf_cmd *cmd);
 

@@ -5,7 +5,6 @@
 #include "convert/broadcast.h"
 #include "convert/cmd.h"
 #include "convert/fail.h"
-#include "convert/progress.h"
 
 typedef struct composite_state {
     const char *output, *raster, *system, *encoder, *decoder, *progress;
@@ -14,24 +13,6 @@ typedef struct composite_state {
 } composite_state;
 
 /* ---- Options ---- */
-
-/* Which of the words of `takes` ("a|b|c") value is: index gets it, and keeps what it is where
- * nothing was given. */
-static weft_status choose(const char *name, const char *takes, const char *value, int *index,
-                          weft_error *err) {
-    if (!value) return WEFT_OK;
-    const char *word = takes;
-    for (int i = 0; word; i++) {
-        size_t length = strcspn(word, "|");
-        if (strlen(value) == length && !strncmp(word, value, length)) {
-            *index = i;
-            return WEFT_OK;
-        }
-        word = word[length] ? word + length + 1 : NULL;
-    }
-    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes one of %s", name,
-                   value, takes);
-}
 
 /* In the order of their enumerations. */
 static const char systems[] = "ntsc|pal", encoders[] = "cheap|filtered",
@@ -46,17 +27,14 @@ typedef struct settled {
 static weft_status settle(composite_state *state, settled *s, weft_error *err) {
     int system = -1, encoder = WF_ENCODER_CHEAP, decoder = WF_DECODER_NOTCH;
     char why[512];
-    weft_status status = choose("system", systems, state->system, &system, err);
-    if (!status) status = choose("encoder", encoders, state->encoder, &encoder, err);
-    if (!status) status = choose("decoder", decoders, state->decoder, &decoder, err);
+    weft_status status = wf_cmd_choose("system", systems, state->system, &system, err);
+    if (!status) status = wf_cmd_choose("encoder", encoders, state->encoder, &encoder, err);
+    if (!status) status = wf_cmd_choose("decoder", decoders, state->decoder, &decoder, err);
     if (status) return status;
     if (state->raster && !wf_raster_parse(state->raster, &s->raster, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "--raster: %s", why);
-    if (!wf_meter_init(&state->meter, state->quiet ? "none" : state->progress))
-        return wf_fail(
-            err, WEFT_USAGE,
-            "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
-            state->progress);
+    status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
+    if (status) return status;
     s->system = (wf_tv_system)(system < 0 ? 0 : system);
     s->set = (wf_broadcast){.raster = state->raster ? &s->raster : NULL,
                             .system = system < 0 ? NULL : &s->system,
@@ -155,9 +133,7 @@ static const wf_cmd_option options[] = {
       writing},
      .letter = 'o',
      .offset = offsetof(composite_state, output)},
-    {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
-      "How to show progress, on standard error.", writing},
-     .offset = offsetof(composite_state, progress)},
+    {WF_CMD_PROGRESS(writing), .offset = offsetof(composite_state, progress)},
     {{"quiet", NULL, NULL, "Say nothing but errors.", writing},
      .letter = 'q',
      .offset = offsetof(composite_state, quiet)},

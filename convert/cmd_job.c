@@ -9,7 +9,6 @@
 #include "convert/cmd.h"
 #include "convert/fail.h"
 #include "convert/outfile.h"
-#include "convert/progress.h"
 
 typedef struct job_state {
     const char *output, *progress, *report;
@@ -76,11 +75,8 @@ static void on_warning(const char *text, void *user) {
 }
 
 static weft_status check_state(job_state *state, weft_error *err) {
-    if (!wf_meter_init(&state->meter, state->quiet ? "none" : state->progress))
-        return wf_fail(
-            err, WEFT_USAGE,
-            "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
-            state->progress);
+    weft_status status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
+    if (status) return status;
     if (state->report && state->output && !strcmp(state->report, "-") &&
         !strcmp(state->output, "-"))
         return wf_fail(err, WEFT_USAGE,
@@ -152,9 +148,7 @@ static const wf_cmd_option options[] = {
       output},
      .letter = 'o',
      .offset = offsetof(job_state, output)},
-    {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
-      "How to show progress, on standard error.", output},
-     .offset = offsetof(job_state, progress)},
+    {WF_CMD_PROGRESS(output), .offset = offsetof(job_state, progress)},
     {{"quiet", NULL, NULL, "Say nothing but errors.", output},
      .letter = 'q',
      .offset = offsetof(job_state, quiet)},

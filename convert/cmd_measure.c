@@ -10,7 +10,6 @@
 #include "convert/module.h"
 #include "convert/outfile.h"
 #include "convert/plot.h"
-#include "convert/progress.h"
 #include "convert/values.h"
 
 #define MOST_LIMITS 32
@@ -47,10 +46,10 @@ static weft_status read_chart(const char *text, wf_measure_options *o, weft_erro
 }
 
 static weft_status read_display(const char *text, wf_measure_options *o, weft_error *err) {
-    if (text && !strcmp(text, "crt")) o->display = WF_DISPLAY_CRT;
-    if (!text || !strcmp(text, "crt") || !strcmp(text, "bob")) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "--display: '%.200s' will not do; it takes one of bob|crt",
-                   text);
+    int display = WF_DISPLAY_BOB;
+    weft_status status = wf_cmd_choose("display", "bob|crt", text, &display, err);
+    o->display = (wf_display_kind)display;
+    return status;
 }
 
 /* Each --limit, and each of several with commas between them. */
@@ -117,12 +116,8 @@ static weft_status read_state(measure_state *s, int files, char **paths, weft_er
             err, WEFT_USAGE,
             "nothing to measure; give a video, a pattern such as frame.####.exr, or - "
             "for Y4M on standard input");
-    if (!wf_meter_init(&s->meter, s->progress))
-        return wf_fail(
-            err, WEFT_USAGE,
-            "--progress: '%.200s' will not do; it takes one of tty|plain|alf|json|none",
-            s->progress);
-    weft_status status = check_names(s, files, paths, err);
+    weft_status status = wf_cmd_meter(&s->meter, s->progress, false, err);
+    if (!status) status = check_names(s, files, paths, err);
     if (!status) status = read_memory(s, err);
     if (!status) status = read_chart(s->chart, &s->options, err);
     if (!status) status = read_display(s->display, &s->options, err);
@@ -230,8 +225,7 @@ static const char group[] = "Options";
 
 static const wf_cmd_option options[] = {
     {{"raster", "NAME", NULL,
-      "What the video is, where it does not say so itself (raw v210 and uyvy) or says it "
-      "wrong.",
+      "What the video is, where it does not say so (raw v210 and uyvy) or says it wrong.",
       group},
      .offset = STATE(raster_name)},
     {{"chart", "zoneplate|grating:FY", NULL,
@@ -249,17 +243,14 @@ static const wf_cmd_option options[] = {
       group},
      .offset = STATE(against)},
     {{"limit", "KEY=V", NULL,
-      "Exit with 1 if a figure exceeds V (sharpness, difference.psnr and difference.ssim: "
-      "falls "
-      "short of it). May be repeated, or given several with commas.",
+      "Exit with 1 if a figure exceeds V (sharpness, psnr and ssim: falls short of it; "
+      "order.verdict: is another). May be repeated, or given several with commas.",
       group},
      .offset = STATE(limits),
      .repeats = true},
     {{"heatmap", "FILE", NULL, "Draw where it flickers into a PNG file.", group},
      .offset = STATE(heatmap)},
-    {{"progress", "tty|plain|alf|json|none", "tty on a terminal, else none",
-      "How to show progress, on standard error.", group},
-     .offset = STATE(progress)},
+    {WF_CMD_PROGRESS(group), .offset = STATE(progress)},
     {{"max-memory", "SIZE", "2G", "How much memory the frames in hand may take.", group},
      .offset = STATE(max_memory)},
     {{"json", NULL, NULL, "Print JSON: an object, an array of several files.", group},
@@ -292,7 +283,15 @@ const wf_cmd wf_cmd_measure = {
         "pixels\n"
         "  legal.range_share         share of the picture outside narrow range,\n"
         "  legal.r103_share          and outside EBU R103\n"
-        "  difference.rmse .psnr .ssim  from --against, of the largest code\n",
+        "  difference.rmse .psnr .ssim  from --against, of the largest code\n"
+        "Content stands still where fields of one parity agree within 1 % from frame to frame; "
+        "a\n"
+        "single frame is taken for a still. Shares are from 0 to 1 in JSON and as limits. "
+        "Order\n"
+        "needs two frames, telecined six; a ratio beyond 0.8 .. 1.25 is clear, nearer to 1 it "
+        "is\n"
+        "told only if every pair of frames leans that way. Raw video is 525i without "
+        "--raster.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .job_options = no_job_options,

@@ -53,7 +53,7 @@ check "version" prints "weft $version" --version
 check "version of a command" prints "weft $version" convert --version
 check "help" prints "usage: weft COMMAND" --help
 check "-h" prints "usage: weft COMMAND" -h
-for command in convert filters rasters info; do
+for command in convert render trace measure composite filters rasters info; do
     check "$command is in the help" prints "weft $command" --help
     check "help of $command" prints "usage: weft $command" "$command" --help
     check "help of $command comes first" prints "usage: weft $command" "$command" --nonsense -h
