@@ -63,6 +63,24 @@ static const wf_chroma_filter *filter_of(const wf_encoding *e) {
     return e->ycbcr ? wf_chroma_filter_of(e->chroma) : NULL;
 }
 
+/* A bijection of 32 bits that leaves no pattern (the finalizer of MurmurHash3). */
+static uint32_t scramble(uint32_t h) {
+    h = (h ^ h >> 16) * 0x85ebca6b;
+    h = (h ^ h >> 13) * 0xc2b2ae35;
+    return h ^ h >> 16;
+}
+
+/* The sum of two even distributions, each of one code's width, about 0. */
+static void add_noise(const wf_encoding *e, int plane, double unit, float *signal,
+                      size_t count) {
+    uint32_t seed = scramble((uint32_t)e->line * 3 + (uint32_t)plane);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t h = scramble(seed ^ (uint32_t)i * 0x9e3779b9);
+        double noise = ((double)(h & 0xffff) + (double)(h >> 16) - 65535) / 65536;
+        signal[i] += (float)(noise / unit);
+    }
+}
+
 size_t wf_encode_scratch(const wf_encoding *encoding) {
     return filter_of(encoding) ? wf_chroma_scratch((size_t)encoding->width_px) : 0;
 }
@@ -80,6 +98,8 @@ void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scr
         bool chroma = encoding->ycbcr && c > 0;
         if (chroma && filter) wf_chroma_decimate(filter, rgb[c], width, scratch);
         wf_quantizer quantizer = quantizer_of(encoding, chroma);
-        ops->quantize(&quantizer, code[c], rgb[c], chroma && filter ? width / 2 : width);
+        size_t count = chroma && filter ? width / 2 : width;
+        if (encoding->dither) add_noise(encoding, c, quantizer.scale, rgb[c], count);
+        ops->quantize(&quantizer, code[c], rgb[c], count);
     }
 }

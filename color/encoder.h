@@ -11,6 +11,12 @@ typedef enum wf_luma { WF_LUMA_601, WF_LUMA_709, WF_LUMA_2020 } wf_luma;
 typedef enum wf_chroma { WF_CHROMA_BT601, WF_CHROMA_121, WF_CHROMA_BOX, WF_CHROMA_444 } wf_chroma;
 typedef enum wf_legalize { WF_LEGAL_NONE, WF_LEGAL_CLIP } wf_legalize;
 
+/* tpdf: noise of triangular distribution, one code to each side, is added before rounding, so
+ * that a gradient has no steps: the mean of the codes is the signal, whatever it is, and their
+ * variance a quarter. It is fixed to the pixels of the frame: the fields of a still share it
+ * with those of the same parity, and no two lines or planes are alike. */
+typedef enum wf_dither { WF_DITHER_NONE, WF_DITHER_TPDF } wf_dither;
+
 /* Scene-linear to display-encoded R'G'B', in place: three planes of width_px samples. Called from
  * many threads at once; never fails once made. */
 typedef struct wf_transform {
@@ -34,6 +40,8 @@ typedef struct wf_encoding {
     wf_luma luma;
     wf_chroma chroma;     /* ignored for R'G'B' */
     wf_legalize legalize;
+    wf_dither dither;
+    int line;             /* of the frame, from the top: which noise it gets */
     bool ycbcr;           /* false: the codes are R'G'B' */
     bool full_range;
     int bits;             /* 8, 10, 12 or 16 */

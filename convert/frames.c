@@ -130,8 +130,11 @@ void wf_frames_line(const wf_frames *f, wf_finisher *finisher, int64_t field, in
     if (s->transform.apply)
         s->transform.apply(s->transform.self, rgb[0], rgb[1], rgb[2],
                            (size_t)f->job->raster.width_px);
-    if (s->sink->layout != WF_LINEAR)
-        wf_encode_line(&s->encoding, rgb, finisher->code_scratch, code);
+    if (s->sink->layout != WF_LINEAR) {
+        wf_encoding encoding = s->encoding;
+        encoding.line = line_in_frame(f, field, line);
+        wf_encode_line(&encoding, rgb, finisher->code_scratch, code);
+    }
     finisher->color_s += wf_now_s() - start;
 }
 

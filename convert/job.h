@@ -49,6 +49,7 @@ struct weft_job {
     wf_code_range range;
     wf_chroma chroma;
     wf_legalize legalize;
+    wf_dither dither;
 
     wf_sampler_kind sampler;
     int64_t samples; /* a pixel, frame line and field */

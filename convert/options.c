@@ -354,6 +354,9 @@ static const option_row rows[] = {
     ROW(codes, "chroma", "bt601|121|box|444", "bt601",
         "How chroma is brought to 4:2:2; 444 leaves it whole.", set_choice, AT(chroma),
         INITIAL),
+    ROW(codes, "dither", "none|tpdf", "none",
+        "Whether to round with noise, so that gradients have no steps; it does not flicker.",
+        set_choice, AT(dither), INITIAL),
     ROW(codes, "legalize", "none|clip", "none", "Whether to hold codes within the legal range.",
         set_choice, AT(legalize), INITIAL),
 

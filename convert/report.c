@@ -72,6 +72,7 @@ static void add_legal(wf_json *json, const wf_report_legal *legal) {
     wf_json_open(json, "legal", '{');
     if (legal->legalize) {
         wf_json_text(json, "legalize", legal->legalize);
+        wf_json_text(json, "dither", legal->dither);
         wf_json_text(json, "range", legal->range);
         wf_json_int(json, "bits", legal->bits);
     }

@@ -9,6 +9,7 @@
 /* What is known of the legality of the codes written. */
 typedef struct wf_report_legal {
     const char *legalize; /* "none", "clip"; NULL: nothing was quantised, "legal" is {} */
+    const char *dither;   /* "none", "tpdf" */
     const char *range;    /* "narrow", "full" */
     int bits;
 } wf_report_legal;

@@ -302,6 +302,7 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .luma = raster_colors[job->raster.matrix].luma,
         .chroma = job->chroma,
         .legalize = job->legalize,
+        .dither = job->dither,
         .ycbcr = s->sink->layout == WF_YCBCR,
         .full_range = full,
         .bits = bits,
@@ -340,6 +341,7 @@ wf_gather_desc wf_setup_gather(const weft_job *job) {
 wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
     if (!s->sink || s->sink->layout == WF_LINEAR) return (wf_report_legal){0};
     return (wf_report_legal){job->legalize == WF_LEGAL_CLIP ? "clip" : "none",
+                             job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
                              s->sink_options.full_range ? "full" : "narrow",
                              s->sink_options.bits};
 }

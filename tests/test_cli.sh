@@ -62,7 +62,7 @@ done
 "$WEFT" convert --help >out
 for option in raster aperture temporal-width shutter-angle shutter-position scan-skew frames subframe-rate \
     subframe-time fit input-par background layer part ocio from to display view look bits range chroma \
-    legalize timecode on-missing fix-nan chunk threads skip max-memory overwrite resume progress quiet \
+    legalize dither timecode on-missing fix-nan chunk threads skip max-memory overwrite resume progress quiet \
     report output help; do
     check "help of convert has --$option" grep -q -- "--$option\>" out
 done
@@ -101,6 +101,7 @@ check "nothing was written" test -z "$(find . -name 'x.*')"
 # Words that are refused list those there are.
 check "bits" refuses "8|10|12|16" convert --bits 9
 check "chroma" refuses "bt601|121|box|444" convert --chroma best
+check "dither" refuses "none|tpdf" convert --dither blue
 check "legalize" refuses "none|clip" convert --legalize hard
 check "position" refuses "start|center|end" convert --shutter-position middle
 check "fit" refuses "stretch|crop|pad" convert --fit squeeze

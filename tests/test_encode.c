@@ -299,6 +299,74 @@ static void codes_by_the_book(void **state) {
     }
 }
 
+/* TPDF noise: whatever lies between two codes, their mean is it and their variance a quarter
+ * (Lipshitz, Wannamaker and Vanderkooy 1992); the same line has the same noise in every frame,
+ * and other lines and planes another. */
+static void dither_has_no_steps(void **state) {
+    (void)state;
+    enum { COUNT = 40000 };
+    static float rgb[3][COUNT];
+    static uint16_t code[3 * COUNT], again[3 * COUNT];
+    wf_encoding e = {.chroma = WF_CHROMA_444,
+                     .bits = 10,
+                     .width_px = COUNT,
+                     .dither = WF_DITHER_TPDF,
+                     .line = 7};
+    double worst = 0, ramp = 0;
+    for (int step = 0; step < 20; step++) {
+        double level = 400 + step / 20.0, mean = 0, square = 0;
+        for (int c = 0; c < 3; c++)
+            for (int n = 0; n < COUNT; n++) rgb[c][n] = (float)((level - 64) / 876);
+        encode(&e, rgb[0], rgb[1], rgb[2], code);
+        for (int n = 0; n < COUNT; n++)
+            mean += code[n] - level, square += pow(code[n] - level, 2);
+        mean /= COUNT, square /= COUNT;
+        worst = fmax(worst, fabs(mean));
+        ramp += mean / 20;
+        assert_true(fabs(square - mean * mean - 0.25) < 0.01);
+    }
+    print_message("mean error %.4f of a code at most, %.4f over the ramp\n", worst, ramp);
+    assert_true(worst < 0.02 && fabs(ramp) < 0.01);
+    for (int c = 0; c < 3; c++)
+        for (int n = 0; n < COUNT; n++) rgb[c][n] = (float)((400 + 19 / 20.0 - 64) / 876);
+    encode(&e, rgb[0], rgb[1], rgb[2], again);
+    assert_memory_equal(code, again, sizeof code);
+    int alike = 0, planes_alike = 0;
+    e.line = 8;
+    for (int c = 0; c < 3; c++)
+        for (int n = 0; n < COUNT; n++) rgb[c][n] = (float)((400.5 - 64) / 876);
+    encode(&e, rgb[0], rgb[1], rgb[2], code);
+    e.line = 9;
+    for (int c = 0; c < 3; c++)
+        for (int n = 0; n < COUNT; n++) rgb[c][n] = (float)((400.5 - 64) / 876);
+    encode(&e, rgb[0], rgb[1], rgb[2], again);
+    for (int n = 0; n < COUNT; n++) {
+        alike += code[n] == again[n];
+        planes_alike += code[n] == code[COUNT + n];
+    }
+    double expected = COUNT / 2.0; /* half way between two codes, they share the noise evenly */
+    assert_true(fabs(alike - expected) < 600 && fabs(planes_alike - expected) < 600);
+}
+
+/* Dither keeps what is legal and what is reserved. */
+static void dither_stays_within(void **state) {
+    (void)state;
+    enum { COUNT = 4000 };
+    static float rgb[3][COUNT];
+    static uint16_t code[3 * COUNT];
+    for (int ends = 0; ends < 2; ends++) {
+        wf_encoding e = {.chroma = WF_CHROMA_444,
+                         .bits = 10,
+                         .width_px = COUNT,
+                         .legalize = WF_LEGAL_CLIP,
+                         .dither = WF_DITHER_TPDF};
+        for (int c = 0; c < 3; c++)
+            for (int n = 0; n < COUNT; n++) rgb[c][n] = (float)ends;
+        encode(&e, rgb[0], rgb[1], rgb[2], code);
+        for (int n = 0; n < 3 * COUNT; n++) assert_true(code[n] >= 64 && code[n] <= 940);
+    }
+}
+
 static void levels_agree(void **state) {
     (void)state;
     enum { COUNT = 4001 };
@@ -334,6 +402,8 @@ int main(void) {
         cmocka_unit_test(nothing_gets_past_the_limits),
         cmocka_unit_test(no_number_is_nought),
         cmocka_unit_test(codes_by_the_book),
+        cmocka_unit_test(dither_has_no_steps),
+        cmocka_unit_test(dither_stays_within),
         cmocka_unit_test(levels_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -92,6 +92,12 @@ check "psf is progressive to the eye" same psf.y4m progressive Progressive
 check "psf, if that is what it is" verdict psf.y4m psf --raster 1920x1080@25psf
 check "progressive" same p.y4m progressive Progressive
 check "still" verdict still.y4m still
+"$WEFT" convert stills --subframe-rate 60000/1001 --raster 525i --fit stretch --bits 8 --dither tpdf -q -o dither.y4m
+frames() { python3 -c "
+d = open('$1', 'rb').read().split(b'FRAME\n')[1:]
+print(len(d), len(set(d)))"; }
+check "a dithered still: every frame has the same codes" test "$(frames dither.y4m)" = "3 1"
+check "and is one" verdict dither.y4m still
 
 # weave NAME FILTER: the top first video, fields put together in another way.
 weave() { ffmpeg -nostdin -v error -y -i tff.y4m -vf "$2" -strict -1 "$1.y4m"; }
