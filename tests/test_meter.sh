@@ -219,17 +219,18 @@ for form in v210 uyvy; do
 done
 check "another raster" exits 1 measure f.v210 --raster 625i
 check "which is said" says "--raster"
-samples=16
-[ -z "${WEFT_SANITIZE:-}" ] || samples=4
+# With few samples noise adds to what the aperture leaves.
+samples=16 rms=.02 p999=.03
+[ -z "${WEFT_SANITIZE:-}" ] || { samples=4 rms=.04 p999=.15; }
 for form in '####.exr' '####.dpx' y4m; do
     "$WEFT" render "$WEFT_SOURCE/examples/scenes/zoneplate.lua" -q --raster 525i --samples $samples --aperture line \
         --temporal-width 0 --frames 0-1 -o "z.$form"
 done
 check "EXR sequence" exits 0 measure 'z.####.exr' --json --chart zoneplate
-check "its flicker and sharpness" value "abs(d['flicker']['rms'] / .1387 - 1) < .02 and
-    abs(d['flicker']['p999'] / .339 - 1) < .03 and abs(d['sharpness'] - .9003) < .01 and d['order']['verdict'] == 'still'"
+check "its flicker and sharpness" value "abs(d['flicker']['rms'] / .1387 - 1) < $rms and
+    abs(d['flicker']['p999'] / .339 - 1) < $p999 and abs(d['sharpness'] - .9003) < .01 and d['order']['verdict'] == 'still'"
 check "the same in DPX and Y4M" exits 0 measure 'z.####.dpx' z.y4m --json
-check "displayed light is light" value "len(d) == 2 and all(abs(f['flicker']['rms'] / .1387 - 1) < .02 for f in d)"
+check "displayed light is light" value "len(d) == 2 and all(abs(f['flicker']['rms'] / .1387 - 1) < $rms for f in d)"
 check "cross-color does not depend on the form" value "abs(d[0]['cross_color']['rms'] / d[1]['cross_color']['rms'] - 1) < .01"
 check "standard input" bash -c "'$WEFT' measure - --json <z.y4m >out"
 check "is measured" value "d['frames'] == 2"
@@ -249,7 +250,7 @@ check "keys" value "set(d) >= {'flicker', 'sharpness', 'cross_color', 'cross_lum
 
 check "within its limits" exits 0 measure z.y4m --limit flicker.rms=0.15 --limit legal.range_share=0
 check "beyond a limit" exits 1 measure z.y4m --limit flicker.rms=0.01
-check "which is said" says "flicker.rms is 0.138"
+check "which is said" says "flicker.rms is 0.1"
 check "the second of two" exits 1 measure z.y4m --limit flicker.rms=0.2,flicker.p999=0.1
 check "which is said" says "flicker.p999"
 check "a floor" exits 1 measure z.y4m --chart zoneplate --limit sharpness=0.95
