@@ -63,6 +63,11 @@ void wf_cmd_help(const wf_cmd *cmd);
 /* Prints what wf_json_finish returned, and frees it. */
 weft_status wf_cmd_print_json(char *text, weft_error *err);
 
+/* Has an entry point of the plot module (convert/plot.h) draw into a PNG file, which replaces
+ * one that is there. */
+weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
+                        weft_error *err);
+
 /* "weft: " and a message on standard error, colored on a terminal unless NO_COLOR is set. */
 void wf_cmd_say(const char *kind, const char *text);
 

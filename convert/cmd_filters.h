@@ -46,9 +46,4 @@ void wf_filters_add_design(wf_json *json, const wf_filters_query *query);
 /* Draws the least flicker there is against sharpness into a PNG file; prints the numbers. */
 weft_status wf_filters_frontier(const char *path, bool json, weft_error *err);
 
-/* Calls an entry point of the plot module, of the type wf_plot_png_fn, with a plot of its own.
- */
-weft_status wf_filters_draw(const char *symbol, const void *plot, const char *path,
-                            weft_error *err);
-
 #endif

@@ -164,7 +164,7 @@ static weft_status draw(const frontier *f, const char *path, weft_error *err) {
         .curves = curves,
         .marks = f->mark,
     };
-    return wf_filters_draw("wf_plot_xy_png", &plot, path, err);
+    return wf_cmd_draw("wf_plot_xy_png", &plot, path, err);
 }
 
 static void add_numbers(wf_json *json, const char *key, const double *value, size_t count) {

@@ -7,8 +7,6 @@
 
 #include "convert/cmd.h"
 #include "convert/fail.h"
-#include "convert/module.h"
-#include "convert/outfile.h"
 #include "convert/plot.h"
 #include "convert/values.h"
 
@@ -127,10 +125,6 @@ static weft_status read_state(measure_state *s, int files, char **paths, weft_er
 
 /* ---- The heat map ---- */
 
-static weft_status write_piece(void *to, const void *data, size_t bytes, weft_error *err) {
-    return wf_outfile_write(to, data, bytes, err);
-}
-
 /* The strongest color is a round number a little above the 99.9th percentile. */
 static double round_up(double value) {
     static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
@@ -140,9 +134,6 @@ static double round_up(double value) {
 }
 
 static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_error *err) {
-    void *symbol;
-    wf_plot_heat_fn *draw;
-    wf_outfile *file;
     char subtitle[128];
     snprintf(subtitle, sizeof subtitle,
              "RMS %.4f, 99.9th percentile %.3f of white; over 2 %%: %.2g %%", f->flicker_rms,
@@ -154,15 +145,7 @@ static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_e
                              .lines = f->info.lines,
                              .pixel_aspect = wf_ratio_value(f->info.raster.pixel_aspect),
                              .high = round_up(f->flicker_p999)};
-    weft_status status = wf_module_symbol("plot", "wf_plot_heat", &symbol, err);
-    if (status) return status;
-    memcpy(&draw, &symbol, sizeof draw);
-    status = wf_outfile_open(s->heatmap, true, &file, err);
-    if (status) return status;
-    status = draw(&map, write_piece, file, err);
-    if (!status) return wf_outfile_commit(file, err);
-    wf_outfile_abandon(file);
-    return status;
+    return wf_cmd_draw("wf_plot_heat", &map, s->heatmap, err);
 }
 
 /* ---- Measuring ---- */

@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/cmd.h"
 #include "convert/cmd_filters.h"
-#include "convert/module.h"
-#include "convert/outfile.h"
 #include "convert/plot.h"
 #include "filters/residue.h"
 
@@ -79,26 +78,6 @@ static void collect(const wf_filters_query *q, curves *c) {
     }
 }
 
-static weft_status write_piece(void *to, const void *data, size_t bytes, weft_error *err) {
-    return wf_outfile_write(to, data, bytes, err);
-}
-
-weft_status wf_filters_draw(const char *symbol, const void *plot, const char *path,
-                            weft_error *err) {
-    void *found;
-    weft_status (*draw)(const void *plot, wf_plot_write_fn *write, void *to, weft_error *err);
-    wf_outfile *file;
-    weft_status status = wf_module_symbol("plot", symbol, &found, err);
-    if (status) return status;
-    memcpy(&draw, &found, sizeof draw);
-    status = wf_outfile_open(path, true, &file, err);
-    if (status) return status;
-    status = draw(plot, write_piece, file, err);
-    if (!status) return wf_outfile_commit(file, err);
-    wf_outfile_abandon(file);
-    return status;
-}
-
 weft_status wf_filters_plot(const wf_filters_query *query, const char *path, weft_error *err) {
     curves c = {.count = 0};
     char title[128] = "Apertures", subtitle[160];
@@ -117,5 +96,5 @@ weft_status wf_filters_plot(const wf_filters_query *query, const char *path, wef
         .curve_count = c.count,
         .curves = c.curve,
     };
-    return wf_filters_draw("wf_plot_png", &plot, path, err);
+    return wf_cmd_draw("wf_plot_png", &plot, path, err);
 }

@@ -6,7 +6,7 @@
 
 #include "convert/plot_draw.h"
 
-WEFT_API wf_plot_png_fn wf_plot_png;
+WEFT_API wf_plot_fn wf_plot_png;
 
 enum {
     WIDTH = 1280,
@@ -193,8 +193,8 @@ static void draw(cairo_t *cr, const wf_plot *plot) {
     wf_text_at(cr, LEFT + width / 2, HEIGHT - 26, 0.5, plot->x_label);
 }
 
-weft_status wf_plot_png(const wf_plot *plot, wf_plot_write_fn *write, void *to,
-                        weft_error *err) {
+weft_status wf_plot_png(const void *drawn, wf_plot_write_fn *write, void *to, weft_error *err) {
+    const wf_plot *plot = drawn;
     wf_canvas canvas = wf_canvas_new(WIDTH, HEIGHT);
     draw(canvas.cr, plot);
     return wf_canvas_finish(&canvas, write, to, err);

@@ -48,14 +48,6 @@ typedef struct wf_plot_xy {
 /* Where the picture goes, piece by piece. */
 typedef weft_status wf_plot_write_fn(void *to, const void *data, size_t bytes, weft_error *err);
 
-/* wf_plot_png and wf_plot_xy_png, the entry points of the plot module: they draw and write a
- * PNG.
- */
-typedef weft_status wf_plot_png_fn(const wf_plot *plot, wf_plot_write_fn *write, void *to,
-                                   weft_error *err);
-typedef weft_status wf_plot_xy_png_fn(const wf_plot_xy *plot, wf_plot_write_fn *write, void *to,
-                                      weft_error *err);
-
 /* How strong something is where in a picture. */
 typedef struct wf_plot_map {
     const char *title, *subtitle;
@@ -64,8 +56,9 @@ typedef struct wf_plot_map {
     double pixel_aspect, high; /* high: what is drawn as strongest */
 } wf_plot_map;
 
-/* wf_plot_heat, another entry point. */
-typedef weft_status wf_plot_heat_fn(const wf_plot_map *map, wf_plot_write_fn *write, void *to,
-                                    weft_error *err);
+/* The entry points of the plot module draw what they are given and write a PNG: wf_plot_png a
+ * wf_plot, wf_plot_xy_png a wf_plot_xy, wf_plot_heat a wf_plot_map. */
+typedef weft_status wf_plot_fn(const void *drawn, wf_plot_write_fn *write, void *to,
+                               weft_error *err);
 
 #endif

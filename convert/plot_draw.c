@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "convert/plot_write.h"
-
 /* Told apart by most color-blind readers (Okabe and Ito's set, darkened for thin lines). */
 const wf_rgb wf_palette[WF_COLORS] = {
     {0.00, 0.40, 0.66}, {0.84, 0.37, 0.00}, {0.00, 0.56, 0.42}, {0.72, 0.40, 0.60},
@@ -69,8 +67,8 @@ static cairo_status_t receive(void *closure, const unsigned char *data, unsigned
     return r->status ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
-weft_status wf_plot_write_png(cairo_surface_t *surface, wf_plot_write_fn *write, void *to,
-                              weft_error *err) {
+static weft_status write_png(cairo_surface_t *surface, wf_plot_write_fn *write, void *to,
+                             weft_error *err) {
     receiver r = {.write = write, .to = to, .err = err};
     cairo_status_t status = cairo_surface_write_to_png_stream(surface, receive, &r);
     if (r.status) return r.status;
@@ -84,7 +82,7 @@ weft_status wf_canvas_finish(wf_canvas *canvas, wf_plot_write_fn *write, void *t
     cairo_status_t drawn = cairo_status(canvas->cr);
     weft_status status =
         drawn ? wf_fail(err, WEFT_FAILED, "the plot: %s", cairo_status_to_string(drawn))
-              : wf_plot_write_png(canvas->surface, write, to, err);
+              : write_png(canvas->surface, write, to, err);
     cairo_destroy(canvas->cr);
     cairo_surface_destroy(canvas->surface);
     return status;

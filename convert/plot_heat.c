@@ -1,14 +1,11 @@
 /* The plot module: how strong something is where in a picture, as a heat map. */
-#include <cairo.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "convert/plot.h"
-#include "convert/plot_write.h"
+#include "convert/plot_draw.h"
 
-WEFT_API wf_plot_heat_fn wf_plot_heat;
+WEFT_API wf_plot_fn wf_plot_heat;
 
 enum {
     MARGIN = 24,
@@ -46,24 +43,22 @@ static void fill_pixels(const wf_plot_map *map, unsigned char *data, int stride)
     }
 }
 
-/* The map as it would be on the display: pixels are not square. */
-static bool draw_map(cairo_t *cr, const wf_plot_map *map, double width) {
+/* The map as it would be on the display: pixels are not square. A picture that cannot be made
+ * puts the canvas in error. */
+static void draw_map(cairo_t *cr, const wf_plot_map *map, double width) {
     cairo_surface_t *picture =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, map->width_px, map->lines);
-    bool made = !cairo_surface_status(picture);
-    if (made) {
+    if (!cairo_surface_status(picture))
         fill_pixels(map, cairo_image_surface_get_data(picture),
                     cairo_image_surface_get_stride(picture));
-        cairo_surface_mark_dirty(picture);
-        cairo_save(cr);
-        cairo_translate(cr, MARGIN, HEADER);
-        cairo_scale(cr, width / map->width_px, 1);
-        cairo_set_source_surface(cr, picture, 0, 0);
-        cairo_paint(cr);
-        cairo_restore(cr);
-    }
+    cairo_surface_mark_dirty(picture);
+    cairo_save(cr);
+    cairo_translate(cr, MARGIN, HEADER);
+    cairo_scale(cr, width / map->width_px, 1);
+    cairo_set_source_surface(cr, picture, 0, 0);
+    cairo_paint(cr);
+    cairo_restore(cr);
     cairo_surface_destroy(picture);
-    return made;
 }
 
 static void draw_scale(cairo_t *cr, const wf_plot_map *map, double x) {
@@ -73,50 +68,38 @@ static void draw_scale(cairo_t *cr, const wf_plot_map *map, double x) {
         cairo_rectangle(cr, x, HEADER + y, SCALE_WIDTH, 1);
         cairo_fill(cr);
     }
-    cairo_set_source_rgb(cr, 0.13, 0.15, 0.20);
-    cairo_set_font_size(cr, 14);
+    wf_set_color(cr, wf_ink);
+    wf_font(cr, 14, false);
     for (int i = 0; i <= TICKS; i++) {
         char text[32];
         double share = (double)i / TICKS, y = HEADER + (1 - share) * map->lines;
         snprintf(text, sizeof text, "%.3f", share * map->high);
-        cairo_move_to(cr, x + SCALE_WIDTH + 8,
-                      fmin(fmax(y + 5, HEADER + 11), HEADER + map->lines));
-        cairo_show_text(cr, text);
+        wf_text_at(cr, x + SCALE_WIDTH + 8, fmin(fmax(y + 5, HEADER + 11), HEADER + map->lines),
+                   0, text);
     }
 }
 
 static void draw_titles(cairo_t *cr, const wf_plot_map *map) {
-    cairo_set_source_rgb(cr, 1, 1, 1);
-    cairo_paint(cr);
-    cairo_set_source_rgb(cr, 0.13, 0.15, 0.20);
-    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-    cairo_set_font_size(cr, 22);
-    cairo_move_to(cr, MARGIN, 34);
-    cairo_show_text(cr, map->title);
-    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cr, 15);
-    cairo_set_source_rgb(cr, 0.45, 0.48, 0.54);
-    cairo_move_to(cr, MARGIN, 60);
-    cairo_show_text(cr, map->subtitle);
+    wf_set_color(cr, wf_ink);
+    wf_font(cr, 22, true);
+    wf_text_at(cr, MARGIN, 34, 0, map->title);
+    wf_set_color(cr, wf_faint);
+    wf_font(cr, 15, false);
+    wf_text_at(cr, MARGIN, 60, 0, map->subtitle);
 }
 
-weft_status wf_plot_heat(const wf_plot_map *map, wf_plot_write_fn *write, void *to,
+weft_status wf_plot_heat(const void *drawn, wf_plot_write_fn *write, void *to,
                          weft_error *err) {
+    const wf_plot_map *map = drawn;
     double width = fmax(round(map->width_px * map->pixel_aspect), 1);
     if (width > MOST_PIXELS || map->lines > MOST_PIXELS)
         return wf_fail(err, WEFT_FAILED,
                        "the heat map would be %.0f pixels wide and %d high, and %d is the most",
                        width, map->lines, MOST_PIXELS);
-    cairo_surface_t *surface = cairo_image_surface_create(
-        CAIRO_FORMAT_RGB24, (int)width + 2 * MARGIN + SCALE_ROOM, map->lines + HEADER + FOOTER);
-    cairo_t *cr = cairo_create(surface);
-    draw_titles(cr, map);
-    bool drawn = draw_map(cr, map, width);
-    draw_scale(cr, map, MARGIN + width + 16);
-    weft_status status = drawn && !cairo_status(cr)
-                             ? wf_plot_write_png(surface, write, to, err)
-                             : wf_fail(err, WEFT_NO_MEMORY, "no memory for the heat map");
-    cairo_destroy(cr);
-    cairo_surface_destroy(surface);
-    return status;
+    wf_canvas canvas =
+        wf_canvas_new((int)width + 2 * MARGIN + SCALE_ROOM, map->lines + HEADER + FOOTER);
+    draw_titles(canvas.cr, map);
+    draw_map(canvas.cr, map, width);
+    draw_scale(canvas.cr, map, MARGIN + width + 16);
+    return wf_canvas_finish(&canvas, write, to, err);
 }

@@ -4,7 +4,7 @@
 
 #include "convert/plot_draw.h"
 
-WEFT_API wf_plot_xy_png_fn wf_plot_xy_png;
+WEFT_API wf_plot_fn wf_plot_xy_png;
 
 enum { WIDTH = 1280, HEIGHT = 1000, LEFT = 120, RIGHT = 60, TOP = 120, BOTTOM = 100 };
 
@@ -217,8 +217,9 @@ static void draw_marks(page *p) {
     }
 }
 
-weft_status wf_plot_xy_png(const wf_plot_xy *plot, wf_plot_write_fn *write, void *to,
+weft_status wf_plot_xy_png(const void *drawn, wf_plot_write_fn *write, void *to,
                            weft_error *err) {
+    const wf_plot_xy *plot = drawn;
     wf_canvas canvas = wf_canvas_new(WIDTH, HEIGHT);
     page p = {.cr = canvas.cr, .plot = plot};
     fit(&p);
