@@ -51,6 +51,13 @@ void wf_code_scale(const wf_encoding *encoding, int plane, double *zero, double 
     *unit = q.scale;
 }
 
+void wf_decode_line(const wf_encoding *encoding, int plane, const uint16_t *code, float *signal,
+                    size_t count) {
+    double zero, unit;
+    wf_code_scale(encoding, plane, &zero, &unit);
+    for (size_t i = 0; i < count; i++) signal[i] = (float)((code[i] - zero) / unit);
+}
+
 wf_ycbcr wf_ycbcr_of(wf_luma luma) {
     double kr = luma_weights[luma].kr, kb = luma_weights[luma].kb;
     return (wf_ycbcr){.kr = (float)kr,

@@ -52,6 +52,10 @@ typedef struct wf_encoding {
  * -1/2 to 1/2. Of the encoding only ycbcr, full_range and bits are looked at. */
 void wf_code_scale(const wf_encoding *encoding, int plane, double *zero, double *unit);
 
+/* Those signals, of count codes. */
+void wf_decode_line(const wf_encoding *encoding, int plane, const uint16_t *code, float *signal,
+                    size_t count);
+
 /* Samples of float scratch that wf_encode_line needs. */
 size_t wf_encode_scratch(const wf_encoding *encoding);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "color/display.h"
+#include "convert/colors.h"
 #include "convert/measure_kinds.h"
 
 /* EBU R103 v3: 10-bit codes 20 .. 984, as signals. Rounding to floats is not an offense. */
@@ -23,15 +24,11 @@ static void legal_free(void *state) {
     free(l);
 }
 
-static wf_luma luma_of(wf_matrix matrix) {
-    return matrix == WF_709 ? WF_LUMA_709 : matrix == WF_2020 ? WF_LUMA_2020 : WF_LUMA_601;
-}
-
 static void *legal_begin(const wf_video_info *info, const wf_measure_options *options) {
     (void)options;
     legal *l = calloc(1, sizeof *l);
     if (!l) return NULL;
-    l->luma = luma_of(info->raster.matrix);
+    l->luma = wf_colors_of(info->raster.matrix)->luma;
     l->all_codes = info->full_range && info->layout != WF_LINEAR;
     l->line = malloc(3 * (size_t)info->width_px * sizeof *l->line);
     if (l->line) return l;

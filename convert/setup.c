@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "color/ocio.h"
+#include "convert/colors.h"
 #include "convert/module.h"
 
 /* ---- Input ---- */
@@ -167,16 +168,6 @@ static weft_status make_resampler(weft_job *job, wf_setup *s, weft_error *err) {
 
 /* ---- Colour ---- */
 
-static const struct {
-    const char *space;
-    wf_luma luma;
-} raster_colors[] = {
-    [WF_601_525] = {"rec601-525", WF_LUMA_601},
-    [WF_601_625] = {"rec601-625", WF_LUMA_601},
-    [WF_709] = {"rec709", WF_LUMA_709},
-    [WF_2020] = {"rec2020", WF_LUMA_2020},
-};
-
 static const char *given(const char *text) {
     return text && *text ? text : NULL;
 }
@@ -204,7 +195,7 @@ static const char *source_space(const weft_job *job, const wf_setup *s) {
 
 static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error *err) {
     const char *config = foreign_config(job),
-               *raster_space = raster_colors[job->raster.matrix].space;
+               *raster_space = wf_colors_of(job->raster.matrix)->space;
     bool by_display = job->display || job->view;
     const char *to = job->to ? job->to : config || by_display ? NULL : raster_space;
     snprintf(s->color_space, sizeof s->color_space, "%s",
@@ -297,9 +288,9 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .resume = job->resume,
     };
     snprintf(s->color_space, sizeof s->color_space, "%s",
-             raster_colors[job->raster.matrix].space);
+             wf_colors_of(job->raster.matrix)->space);
     s->encoding = (wf_encoding){
-        .luma = raster_colors[job->raster.matrix].luma,
+        .luma = wf_colors_of(job->raster.matrix)->luma,
         .chroma = job->chroma,
         .legalize = job->legalize,
         .dither = job->dither,

@@ -5,26 +5,13 @@
 
 #include "color/chroma.h"
 #include "color/display.h"
+#include "convert/colors.h"
 
 #define CODE_BITS 16 /* of linear light that is encoded: fine enough to count as exact */
 
-/* The colors of a raster: BT.601's two systems have primaries of their own. */
-typedef struct system_row {
-    wf_luma luma;
-    wf_primaries primaries;
-    const char *space; /* its encoding, of color/weft.ocio */
-} system_row;
-
-static const system_row systems[] = {
-    [WF_601_525] = {WF_LUMA_601, WF_PRIMARIES_SMPTE_C, "rec601-525"},
-    [WF_601_625] = {WF_LUMA_601, WF_PRIMARIES_EBU, "rec601-625"},
-    [WF_709] = {WF_LUMA_709, WF_PRIMARIES_709, "rec709"},
-    [WF_2020] = {WF_LUMA_2020, WF_PRIMARIES_2020, "rec2020"},
-};
-
 struct wf_signals {
     wf_video_info info;
-    system_row system;
+    const wf_colors *colors;
     wf_display display;
     float *line; /* of R' G' B', and the encoder's scratch */
     /* Linear light only: */
@@ -39,7 +26,7 @@ struct wf_signals {
 
 static bool make_encoded(wf_signals *s) {
     s->across = s->info.width_px % 2 ? 1 : 2;
-    s->encoding = (wf_encoding){.luma = s->system.luma,
+    s->encoding = (wf_encoding){.luma = s->colors->luma,
                                 .chroma = s->across == 2 ? WF_CHROMA_BT601 : WF_CHROMA_444,
                                 .ycbcr = true,
                                 .bits = CODE_BITS,
@@ -67,11 +54,11 @@ weft_status wf_signals_new(const wf_video_info *info, wf_signals **out, weft_err
     wf_signals *s = calloc(1, sizeof *s);
     if (!s) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     s->info = *info;
-    s->system = systems[info->raster.matrix];
-    wf_display_init(&s->display, s->system.primaries, info->transfer);
+    s->colors = wf_colors_of(info->raster.matrix);
+    wf_display_init(&s->display, s->colors->primaries, info->transfer);
     weft_status status = WEFT_OK;
     if (info->layout == WF_LINEAR &&
-        !wf_builtin_transform("lin_rec709", s->system.space, &s->transform, why, sizeof why))
+        !wf_builtin_transform("lin_rec709", s->colors->space, &s->transform, why, sizeof why))
         status = wf_fail(err, WEFT_FAILED, "%s", why);
     if (!status && !make_room(s))
         status = wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
@@ -171,11 +158,9 @@ static void encode_line(wf_signals *s, const wf_video_frame *frame, int y) {
     s->transform.apply(s->transform.self, rgb[0], rgb[1], rgb[2], width);
     wf_encode_line(&s->encoding, rgb, s->line + 3 * width, code);
     for (int p = 0; p < 3; p++) {
-        double zero, unit;
-        wf_code_scale(&s->encoding, p, &zero, &unit);
         size_t count = (size_t)s->encoded.width_px[p];
-        float *to = s->encoded.plane[p] + (size_t)y * count;
-        for (size_t x = 0; x < count; x++) to[x] = (float)((code[p][x] - zero) / unit);
+        wf_decode_line(&s->encoding, p, code[p], s->encoded.plane[p] + (size_t)y * count,
+                       count);
     }
 }
 
@@ -189,7 +174,7 @@ static void take_coded(const wf_signals *s, const wf_signal *signal, int y) {
     }
     for (int p = 1; p < 3; p++)
         memcpy(signal->ycbcr[p] + at, signal->coded.plane[p] + at, width * sizeof(float));
-    wf_ycbcr_of_rgb(s->system.luma, signal->ycbcr[0] + at, signal->ycbcr[1] + at,
+    wf_ycbcr_of_rgb(s->colors->luma, signal->ycbcr[0] + at, signal->ycbcr[1] + at,
                     signal->ycbcr[2] + at, width);
 }
 
@@ -197,7 +182,7 @@ static void displayed_light(wf_signals *s, const wf_signal *signal, int y) {
     size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
     float *rgb[3] = {s->line, s->line + width, s->line + 2 * width};
     for (int p = 0; p < 3; p++) memcpy(rgb[p], signal->ycbcr[p] + at, width * sizeof(float));
-    wf_rgb_of_ycbcr(s->system.luma, rgb[0], rgb[1], rgb[2], width);
+    wf_rgb_of_ycbcr(s->colors->luma, rgb[0], rgb[1], rgb[2], width);
     wf_display_luminance(&s->display, (const float *const *)rgb, signal->light + at, width);
 }
 

@@ -22,11 +22,9 @@ void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *c
     const wf_video_info *info = &video->info;
     const wf_encoding encoding = {
         .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
-    double zero, unit;
-    wf_code_scale(&encoding, plane, &zero, &unit);
-    int width = video->frame.width_px[plane];
-    float *to = video->frame.plane[plane] + (size_t)line * (size_t)width;
-    for (int x = 0; x < width; x++) to[x] = (float)((code[x] - zero) / unit);
+    size_t width = (size_t)video->frame.width_px[plane];
+    wf_decode_line(&encoding, plane, code, video->frame.plane[plane] + (size_t)line * width,
+                   width);
 }
 
 /* ---- Which raster it is ---- */
