@@ -2,20 +2,10 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "convert/cmd_info.h"
 #include "convert/fail.h"
 #include "convert/y4m.h"
-
-/* Whole frames after the header, if they carry no parameters of their own; -1: unknown. */
-static int64_t count_frames(FILE *file, const wf_y4m *h, size_t header_bytes) {
-    struct stat about;
-    int64_t each = wf_y4m_frame_bytes(h) + (int64_t)strlen("FRAME\n");
-    if (fstat(fileno(file), &about) || !S_ISREG(about.st_mode) || !h->known) return -1;
-    int64_t rest = about.st_size - (int64_t)header_bytes;
-    return rest % each ? -1 : rest / each;
-}
 
 static void tell_header(const wf_y4m *h, int64_t frames, wf_facts *facts) {
     wf_fact_text(facts, "kind", "video");
@@ -42,7 +32,7 @@ weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_er
     if (end) *end = '\0';
     weft_status status = WEFT_OK;
     if (*is_y4m && end && wf_y4m_parse(line, &h)) {
-        tell_header(&h, count_frames(file, &h, (size_t)(end - line) + 1), facts);
+        tell_header(&h, wf_y4m_count(&h, file, end - line + 1), facts);
     } else if (*is_y4m) {
         status = wf_fail(
             err, WEFT_FAILED,

@@ -91,14 +91,6 @@ static weft_status read_header(wf_video *v, weft_error *err) {
         v->path, s->header.chroma);
 }
 
-static int64_t count_frames(const stream *s) {
-    struct stat about;
-    int64_t each = (int64_t)s->frame_bytes + (int64_t)strlen("FRAME\n");
-    long at = ftell(s->file);
-    if (at < 0 || fstat(fileno(s->file), &about) || !S_ISREG(about.st_mode)) return -1;
-    return (about.st_size - at) % each ? -1 : (about.st_size - at) / each;
-}
-
 static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err) {
     weft_status status = open_file(v, err);
     if (!status) status = read_header(v, err);
@@ -116,7 +108,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     info->across = h->across ? h->across : 1;
     info->down = h->down ? h->down : 1;
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
-    info->frames = count_frames(s);
+    info->frames = wf_y4m_count(h, s->file, ftell(s->file));
     *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
                               .interlaced = h->order == 't' || h->order == 'b',
                               .top_first = h->order == 't',

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static int read_size(const char *text) {
     char *end;
@@ -55,6 +56,16 @@ int64_t wf_y4m_frame_bytes(const wf_y4m *y4m) {
         samples +=
             2 * ((y4m->width_px + across - 1) / across) * ((y4m->lines + down - 1) / down);
     return samples * (y4m->bits > 8 ? 2 : 1);
+}
+
+int64_t wf_y4m_count(const wf_y4m *y4m, FILE *file, int64_t header_bytes) {
+    struct stat about;
+    int64_t each = wf_y4m_frame_bytes(y4m) + (int64_t)strlen("FRAME\n");
+    if (!y4m->known || header_bytes < 0 || fstat(fileno(file), &about) ||
+        !S_ISREG(about.st_mode))
+        return -1;
+    int64_t rest = about.st_size - header_bytes;
+    return rest % each ? -1 : rest / each;
 }
 
 const char *wf_y4m_order(const wf_y4m *y4m) {

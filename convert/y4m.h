@@ -2,6 +2,7 @@
 #define WF_CONVERT_Y4M_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "filters/rational.h"
 
@@ -27,6 +28,10 @@ bool wf_y4m_parse(char *line, wf_y4m *out);
 
 /* Bytes of a frame's planes, without its "FRAME" line; 0 if the chroma is not known. */
 int64_t wf_y4m_frame_bytes(const wf_y4m *y4m);
+
+/* Whole frames after a header of so many bytes, if they carry no parameters of their own; -1:
+ * that cannot be told. */
+int64_t wf_y4m_count(const wf_y4m *y4m, FILE *file, int64_t header_bytes);
 
 /* "top first", "unknown", .. */
 const char *wf_y4m_order(const wf_y4m *y4m);
