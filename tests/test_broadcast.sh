@@ -1,31 +1,9 @@
 #!/bin/bash
 # weft composite as its users run it: bars through every coder and decoder, labels kept, what is
 # refused and how, nothing half written.
-set -u
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0 failed=0
+. "$WEFT_SOURCE/tests/script.sh"
 
 command -v python3 >/dev/null || { echo "skipped: no python3 to make and read bars with"; exit 77; }
-
-# check NAME COMMAND..: the command must succeed.
-check()
-{
-    local name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
-}
-
-# exits CODE COMMAND..: the command must end with this status; what it says goes to `said`.
-exits()
-{
-    local code=$1
-    shift
-    "$@" 2>said
-    local got=$?
-    [ $got = "$code" ] || { echo "status $got, not $code: $*"; cat said; return 1; }
-}
 
 # refused TEXT ARGUMENT..: status 2, a message with the text, no file.
 refused()
@@ -207,13 +185,13 @@ check "it is as it was" cmp plain.y4m 525-cheap-notch.y4m
 
 # ---- Nothing half written ----
 
-mkdir out
+mkdir left
 head -c 1000000 525.y4m >cut.y4m
-check "a file that is cut off" exits 1 "$WEFT" composite cut.y4m -o out/cut.y4m
+check "a file that is cut off" exits 1 "$WEFT" composite cut.y4m -o left/cut.y4m
 check "the frame is named" grep -q "frame 1" said
-check "a header alone" exits 1 "$WEFT" composite <(head -n 1 525.y4m) -o out/none.y4m
-check "an input that is not there" exits 1 "$WEFT" composite nowhere.y4m -o out/none.y4m
-check "nothing is left of them" [ -z "$(ls -A out)" ]
+check "a header alone" exits 1 "$WEFT" composite <(head -n 1 525.y4m) -o left/none.y4m
+check "an input that is not there" exits 1 "$WEFT" composite nowhere.y4m -o left/none.y4m
+check "nothing is left of them" [ -z "$(ls -A left)" ]
 check "a full device" exits 1 bash -c "'$WEFT' composite 525.y4m -o - >/dev/full"
 
 # An input that goes on for ever; stopped SIGNAL CODE.
@@ -221,7 +199,7 @@ endless() { cat 525.y4m; while tail -n +2 525.y4m; do :; done; }
 stopped()
 {
     local pid code
-    "$WEFT" composite - -o out/long.y4m 2>said < <(endless 2>/dev/null) &
+    "$WEFT" composite - -o left/long.y4m 2>said < <(endless 2>/dev/null) &
     pid=$!
     sleep 0.5
     kill -0 $pid || { echo "it was done before it could be stopped"; return 1; }
@@ -229,7 +207,7 @@ stopped()
     wait $pid
     code=$?
     [ $code = "$2" ] || { echo "status $code, not $2"; cat said; return 1; }
-    [ -z "$(ls -A out)" ] || { ls -A out; return 1; }
+    [ -z "$(ls -A left)" ] || { ls -A left; return 1; }
 }
 check "SIGINT" stopped INT 130
 check "SIGTERM" stopped TERM 143
@@ -237,5 +215,4 @@ check "SIGTERM" stopped TERM 143
 check "help teaches" grep -q "cross-color" <("$WEFT" composite --help)
 check "weft lists it" grep -q "composite IN -o OUTPUT" <("$WEFT" --help)
 
-echo "$passed passed, $failed failed"
-[ $failed = 0 ]
+finish

@@ -1,21 +1,7 @@
 #!/bin/bash
 # What other programs make of the outputs: the same codes out of every container of them, and the
 # fields, rates and timecodes that they were told. (tests/test_video.sh has Y4M's field order.)
-set -u
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0 failed=0 skipped=0
-
-# check NAME COMMAND..: the command must succeed.
-check()
-{
-    local name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
-}
-
-has() { command -v "$1" >/dev/null || { skipped=$((skipped + 1)); echo "skipped: no $1"; return 1; }; }
+. "$WEFT_SOURCE/tests/script.sh"
 
 convert() { "$WEFT" convert in/subframe.####.exr -q "$@" || { echo "weft convert $*"; return 1; }; }
 
@@ -123,5 +109,4 @@ if has mediainfo; then
         <(mediainfo --Inform="Image;%Width% %Height% %BitDepth% %FrameRate%" 525.0000.dpx)
 fi
 
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ]
+finish

@@ -2,39 +2,7 @@
 # 'weft measure' as its users run it: field order beside ffmpeg's idet on every interlaced raster and
 # every wrong way to weave, video of other programs, differences beside ffmpeg's, limits, JSON, heat
 # maps, and what is refused.
-set -u
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export NO_COLOR=1
-passed=0 failed=0 skipped=0
-
-# check NAME COMMAND..: the command must succeed.
-check()
-{
-    local name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
-}
-
-# exits CODE ARGUMENT..: weft must end with this status; it writes to `out` and `said`.
-exits()
-{
-    local code=$1 got
-    shift
-    "$WEFT" "$@" >out 2>said
-    got=$?
-    [ $got = "$code" ] || { echo "status $got, not $code: weft $*"; cat said; return 1; }
-}
-says() { grep -qF -- "$1" said || { echo "not said: $1"; cat said; return 1; }; }
-prints() { grep -qF -- "$1" out || { echo "not printed: $1"; cat out; return 1; }; }
-
-# value EXPRESSION: true of the JSON in `out`, called d.
-value()
-{
-    python3 -c "import json, sys; d = json.load(open('out')); sys.exit(not ($1))" ||
-        { echo "not so: $1"; cat out; return 1; }
-}
+. "$WEFT_SOURCE/tests/script.sh"
 
 # ---- Field order ----
 
@@ -43,7 +11,7 @@ verdict()
 {
     local file=$1 word=$2
     shift 2
-    exits 0 measure "$file" --json "$@" && value "d['order']['verdict'] == '$word'"
+    exits 0 weft measure "$file" --json "$@" && value "d['order']['verdict'] == '$word'"
 }
 
 # idet FILE WORD: ffmpeg's, the most frequent of TFF, BFF, Progressive and Undetermined.
@@ -149,45 +117,45 @@ fi
 # ---- Other programs' video ----
 
 if [ -n "$have_ffmpeg" ] && [ -e "$WEFT_BUILD/lib/weft/weft-libav.so" ]; then
-    exits 0 measure tff.y4m --json && cp out y4m.json
+    exits 0 weft measure tff.y4m --json && cp out y4m.json
     for way in mov:v210 mkv:ffv1 mov:prores_ks avi:ffvhuff; do
         file=copy.${way%:*}
         ffmpeg -nostdin -v error -y -i tff.y4m -c:v "${way#*:}" -flags +ildct -field_order tt "$file"
-        check "$way is measured" exits 0 measure "$file" --json
+        check "$way is measured" exits 0 weft measure "$file" --json
         check "$way is as the Y4M" value "d['order']['verdict'] == 'tff' and d['frames'] == 6 and
             abs(d['flicker']['rms'] / json.load(open('y4m.json'))['flicker']['rms'] - 1) < 0.1"
     done
-    check "v210 in MOV is the Y4M bit for bit" exits 0 measure copy.avi --against tff.y4m --json
+    check "v210 in MOV is the Y4M bit for bit" exits 0 weft measure copy.avi --against tff.y4m --json
     check "no difference" value "d['difference']['rmse'] == 0"
     ffmpeg -nostdin -v error -y -i tff.y4m -pix_fmt yuv420p -c:v mpeg2video -flags +ildct+ilme -qscale 3 x.mpg
     check "MPEG-2 is measured" verdict x.mpg tff
     head -c 200000 copy.mov >cut.mov
-    check "a cut MOV is refused" exits 1 measure cut.mov
+    check "a cut MOV is refused" exits 1 weft measure cut.mov
     check "and named" says cut.mov
     size=$(stat -c %s copy.mkv)
     head -c $((size * 7 / 10)) copy.mkv >cut.mkv
-    check "a cut Matroska is refused" exits 1 measure cut.mkv
+    check "a cut Matroska is refused" exits 1 weft measure cut.mkv
     check "and its end is told" says "ends after"
     ffmpeg -nostdin -v error -y -f lavfi -i testsrc=s=320x240:r=25:d=2 -pix_fmt yuv420p -c:v mpeg4 -g 12 long.mp4
     ffmpeg -nostdin -v error -y -ss 0.5 -i long.mp4 -c copy trimmed.mp4
-    check "an edit list is not" exits 0 measure trimmed.mp4
+    check "an edit list is not" exits 0 weft measure trimmed.mp4
     cp copy.mkv take:1.mkv
-    check "a colon in a name" exits 0 measure take:1.mkv
+    check "a colon in a name" exits 0 weft measure take:1.mkv
     for tag in bt709 smpte170m; do
         ffmpeg -nostdin -v error -y -f lavfi -i smptebars=s=720x576:r=25:d=0.2 -pix_fmt yuv422p -c:v ffv1 \
             -colorspace $tag tag-$tag.mkv
-        check "$tag" exits 0 measure tag-$tag.mkv --json
+        check "$tag" exits 0 weft measure tag-$tag.mkv --json
         cp out $tag.json
     done
     check "the matrix that is tagged is taken" value "d['flicker'] != json.load(open('bt709.json'))['flicker']"
     for tag in smpte2084 arib-std-b67; do
         ffmpeg -nostdin -v error -y -f lavfi -i smptebars=s=720x576:r=25:d=0.2 -pix_fmt yuv422p10le -c:v ffv1 \
             -color_trc $tag pq.mkv
-        check "$tag" exits 0 measure pq.mkv --json
+        check "$tag" exits 0 weft measure pq.mkv --json
         check "$tag is another display" value "d['flicker'] != json.load(open('smpte170m.json'))['flicker']"
     done
     ffmpeg -nostdin -v error -y -f lavfi -i sine=d=0.1 sound.wav
-    check "a sound file is refused" exits 1 measure sound.wav
+    check "a sound file is refused" exits 1 weft measure sound.wav
 else
     skipped=$((skipped + 1)); echo "skipped: no ffmpeg, or built without libav"
 fi
@@ -195,7 +163,7 @@ fi
 # ---- Differences beside ffmpeg's ----
 
 "$WEFT" convert in --subframe-rate 400 --raster 360x288@25i,tff --aperture notch -q -o other.y4m
-check "difference" exits 0 measure other.y4m --against tff.y4m --json
+check "difference" exits 0 weft measure other.y4m --against tff.y4m --json
 if [ -n "$have_ffmpeg" ]; then
     ffmpeg -nostdin -hide_banner -i other.y4m -i tff.y4m -lavfi '[0]split[a][b];[1]split[c][d];[a][c]psnr;[b][d]ssim' \
         -f null - >ffmpeg.log 2>&1
@@ -205,7 +173,7 @@ if [ -n "$have_ffmpeg" ]; then
     check "SSIM of luma is ffmpeg's" value "abs(d['planes']['y']['frame']['ssim'] - $(theirs SSIM Y)) < 2e-5"
     ffmpeg -nostdin -v error -y -i other.y4m -pix_fmt gray10le -strict -1 gray1.y4m
     ffmpeg -nostdin -v error -y -i tff.y4m -pix_fmt gray10le -strict -1 gray2.y4m
-    check "lone luma" exits 0 measure gray1.y4m --against gray2.y4m --json
+    check "lone luma" exits 0 weft measure gray1.y4m --against gray2.y4m --json
     check "is not thinned by empty chroma" value "d['difference']['psnr'] == d['planes']['y']['frame']['psnr'] and
         list(d['planes']) == ['y']"
 fi
@@ -214,10 +182,10 @@ fi
 
 for form in v210 uyvy; do
     clip f.$form 480000/1001 525i
-    check "$form" exits 0 measure f.$form --raster 525i --json
+    check "$form" exits 0 weft measure f.$form --raster 525i --json
     check "$form is bottom first" value "d['order']['verdict'] == 'bff' and d['frames'] == 6"
 done
-check "another raster" exits 1 measure f.v210 --raster 625i
+check "another raster" exits 1 weft measure f.v210 --raster 625i
 check "which is said" says "--raster"
 # With few samples noise adds to what the aperture leaves.
 samples=16 rms=.02 p999=.03
@@ -226,21 +194,21 @@ for form in '####.exr' '####.dpx' y4m; do
     "$WEFT" render "$WEFT_SOURCE/examples/scenes/zoneplate.lua" -q --raster 525i --samples $samples --aperture line \
         --temporal-width 0 --frames 0-1 -o "z.$form"
 done
-check "EXR sequence" exits 0 measure 'z.####.exr' --json --chart zoneplate
+check "EXR sequence" exits 0 weft measure 'z.####.exr' --json --chart zoneplate
 check "its flicker and sharpness" value "abs(d['flicker']['rms'] / .1387 - 1) < $rms and
     abs(d['flicker']['p999'] / .339 - 1) < $p999 and abs(d['sharpness'] - .9003) < .01 and d['order']['verdict'] == 'still'"
-check "the same in DPX and Y4M" exits 0 measure 'z.####.dpx' z.y4m --json
+check "the same in DPX and Y4M" exits 0 weft measure 'z.####.dpx' z.y4m --json
 check "displayed light is light" value "len(d) == 2 and all(abs(f['flicker']['rms'] / .1387 - 1) < $rms for f in d)"
 check "cross-color does not depend on the form" value "abs(d[0]['cross_color']['rms'] / d[1]['cross_color']['rms'] - 1) < .01"
 check "standard input" bash -c "'$WEFT' measure - --json <z.y4m >out"
 check "is measured" value "d['frames'] == 2"
-check "a pipe" exits 0 measure <(cat z.y4m) --json
+check "a pipe" exits 0 weft measure <(cat z.y4m) --json
 check "is measured" value "d['frames'] == 2"
-check "zeros" exits 1 measure <(head -c 1000 /dev/zero)
+check "zeros" exits 1 weft measure <(head -c 1000 /dev/zero)
 check "are not Y4M" says "Y4M header"
-check "for people" exits 0 measure z.y4m
+check "for people" exits 0 weft measure z.y4m
 check "flicker is told" prints "interline flicker"
-check "a single picture" exits 0 measure z.0000.exr --json
+check "a single picture" exits 0 weft measure z.0000.exr --json
 check "has no order" value "d['order']['verdict'] is None and d['sharpness'] is None and d['difference']['rmse'] is None"
 check "keys" value "set(d) >= {'flicker', 'sharpness', 'cross_color', 'cross_luma', 'order', 'legal', 'difference'} and
     set(d['flicker']) == {'rms', 'p999', 'share'} and set(d['cross_color']) == {'rms', 'p999'} and
@@ -248,42 +216,41 @@ check "keys" value "set(d) >= {'flicker', 'sharpness', 'cross_color', 'cross_lum
 
 # ---- Limits and heat maps ----
 
-check "within its limits" exits 0 measure z.y4m --limit flicker.rms=0.15 --limit legal.range_share=0
-check "beyond a limit" exits 1 measure z.y4m --limit flicker.rms=0.01
+check "within its limits" exits 0 weft measure z.y4m --limit flicker.rms=0.15 --limit legal.range_share=0
+check "beyond a limit" exits 1 weft measure z.y4m --limit flicker.rms=0.01
 check "which is said" says "flicker.rms is 0.1"
-check "the second of two" exits 1 measure z.y4m --limit flicker.rms=0.2,flicker.p999=0.1
+check "the second of two" exits 1 weft measure z.y4m --limit flicker.rms=0.2,flicker.p999=0.1
 check "which is said" says "flicker.p999"
-check "a floor" exits 1 measure z.y4m --chart zoneplate --limit sharpness=0.95
-check "a floor that is kept" exits 0 measure z.y4m --chart zoneplate --limit sharpness=0.8
-check "a verdict" exits 1 measure z.y4m --limit order.verdict=tff
-check "a verdict that is so" exits 0 measure z.y4m --limit order.verdict=still
-check "what cannot be measured" exits 1 measure z.0000.exr --limit order.ratio=1
-check "unknown limit" exits 2 measure z.y4m --limit flicker.rmss=1
+check "a floor" exits 1 weft measure z.y4m --chart zoneplate --limit sharpness=0.95
+check "a floor that is kept" exits 0 weft measure z.y4m --chart zoneplate --limit sharpness=0.8
+check "a verdict" exits 1 weft measure z.y4m --limit order.verdict=tff
+check "a verdict that is so" exits 0 weft measure z.y4m --limit order.verdict=still
+check "what cannot be measured" exits 1 weft measure z.0000.exr --limit order.ratio=1
+check "unknown limit" exits 2 weft measure z.y4m --limit flicker.rmss=1
 check "and what was meant" says "did you mean flicker.rms?"
-check "limit without a number" exits 2 measure z.y4m --limit flicker.rms=much
-check "limit without =" exits 2 measure z.y4m --limit flicker.rms
-check "unknown chart" exits 2 measure z.y4m --chart rings
-check "impossible grating" exits 2 measure z.y4m --chart grating:0.7
-check "unknown display" exits 2 measure z.y4m --display lcd
-check "heat map" exits 0 measure z.y4m --heatmap heat.png
+check "limit without a number" exits 2 weft measure z.y4m --limit flicker.rms=much
+check "limit without =" exits 2 weft measure z.y4m --limit flicker.rms
+check "unknown chart" exits 2 weft measure z.y4m --chart rings
+check "impossible grating" exits 2 weft measure z.y4m --chart grating:0.7
+check "unknown display" exits 2 weft measure z.y4m --display lcd
+check "heat map" exits 0 weft measure z.y4m --heatmap heat.png
 check "is a picture" test "$(head -c 4 heat.png | tail -c 3)" = PNG
-check "heat map over its video" exits 2 measure z.0000.exr --heatmap z.0000.exr
-check "standard input twice" exits 2 measure - --against -
-check "too much memory" exits 1 measure z.y4m --max-memory 2M
+check "heat map over its video" exits 2 weft measure z.0000.exr --heatmap z.0000.exr
+check "standard input twice" exits 2 weft measure - --against -
+check "too much memory" exits 1 weft measure z.y4m --max-memory 2M
 check "is said" says "--max-memory"
-check "heat map of two" exits 2 measure z.y4m z.y4m --heatmap heat.png
+check "heat map of two" exits 2 weft measure z.y4m z.y4m --heatmap heat.png
 
 # ---- What is refused ----
 
-check "nothing" exits 2 measure
-check "absent" exits 1 measure absent.y4m
-check "the others are measured" exits 1 measure absent.y4m z.y4m --json
+check "nothing" exits 2 weft measure
+check "absent" exits 1 weft measure absent.y4m
+check "the others are measured" exits 1 weft measure absent.y4m z.y4m --json
 check "in place" value "'error' in d[0] and d[1]['frames'] == 2"
 head -c 1000000 z.y4m >cut.y4m
-check "a cut Y4M" exits 1 measure cut.y4m
+check "a cut Y4M" exits 1 weft measure cut.y4m
 check "its frame is named" says "frame 0"
 echo text >text.y4m
-check "no video" exits 1 measure text.y4m
+check "no video" exits 1 weft measure text.y4m
 
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ]
+finish

@@ -2,37 +2,13 @@
 # Scenes through the program as its users run it: the shipped scenes, the same bytes on any number
 # of threads and in chunks, samples stored and taken up again, other renderers' samples, and what
 # is refused.
-set -u
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0 failed=0 skipped=0
+. "$WEFT_SOURCE/tests/script.sh"
 scenes=$WEFT_SOURCE/examples/scenes
 width=180 lines=122
 [ -z "${WEFT_SANITIZE:-}" ] || width=48 lines=36 # the sanitizers take ten times as long
 small=(--raster "${width}x$lines@30i,tff,par=10:11")
 
-# check NAME COMMAND..: the command must succeed.
-check()
-{
-    local name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
-}
-
-# exits CODE COMMAND..: the command must end with this status; what it says goes to `said`.
-exits()
-{
-    local code=$1
-    shift
-    "$@" 2>said
-    local got=$?
-    [ $got = "$code" ] || { echo "status $got, not $code: $*"; cat said; return 1; }
-}
-
-has() { command -v "$1" >/dev/null || { skipped=$((skipped + 1)); echo "skipped: no $1"; return 1; }; }
 refuses() { local words=$1; shift; exits 1 "$@" && grep -q -- "$words" said; }
-weft() { timeout 250 "$WEFT" "$@"; }
 
 # ---- The scenes that ship ----
 
@@ -208,5 +184,4 @@ wait $!
 check "SIGINT" test $? = 130
 check "leaves nothing" test ! -e long.y4m
 
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ]
+finish

@@ -1,31 +1,7 @@
 #!/bin/bash
 # The program as its users run it: moving pictures to video that other tools must read and find
 # interlaced the right way; pipes, full devices and signals.
-set -u
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0 failed=0 skipped=0
-
-# check NAME COMMAND..: the command must succeed.
-check()
-{
-    local name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
-}
-
-# exits CODE COMMAND..: the command must end with this status; what it says goes to `said`.
-exits()
-{
-    local code=$1
-    shift
-    "$@" 2>said
-    local got=$?
-    [ $got = "$code" ] || { echo "status $got, not $code: $*"; cat said; return 1; }
-}
-
-has() { command -v "$1" >/dev/null || { skipped=$((skipped + 1)); echo "skipped: no $1"; return 1; }; }
+. "$WEFT_SOURCE/tests/script.sh"
 
 "$WEFT_BUILD/make_subframes" in 64 || exit 1
 rate=480000/1001
@@ -117,9 +93,9 @@ check "a closed pipe is named" grep -qi "pipe" said
 stopped()
 {
     local pid began ended code
-    mkdir -p out
+    mkdir -p left
     "$WEFT" convert in/subframe.####.exr --threads 1 \
-        --raster 2160p25 --subframe-rate 200 --aperture shaped --temporal-width 2 -o out/long.y4m 2>said &
+        --raster 2160p25 --subframe-rate 200 --aperture shaped --temporal-width 2 -o left/long.y4m 2>said &
     pid=$!
     sleep 0.5
     kill -0 $pid || { echo "it was done before it could be stopped"; return 1; }
@@ -130,11 +106,10 @@ stopped()
     ended=$(date +%s%N)
     [ $code = "$2" ] || { echo "status $code, not $2"; return 1; }
     [ $((ended - began)) -lt 2000000000 ] || { echo "it took $((ended - began)) ns"; return 1; }
-    [ -z "$(ls -A out)" ] || { ls -A out; return 1; }
+    [ -z "$(ls -A left)" ] || { ls -A left; return 1; }
 }
 check "SIGINT" stopped INT 130
 check "SIGTERM" stopped TERM 143
 check "SIGKILL" stopped KILL 137
 
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ]
+finish
