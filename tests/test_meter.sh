@@ -101,8 +101,10 @@ END
 fi
 
 # Grain moves everything, and says nothing of order.
+strengths="4 8 20"
+[ -z "${WEFT_SANITIZE:-}" ] || strengths=8
 if [ -n "$have_ffmpeg" ]; then
-    for strength in 4 8 20; do
+    for strength in $strengths; do
         ffmpeg -nostdin -v error -y -i p.y4m -vf "noise=alls=$strength:allf=t:all_seed=7" -strict -1 grain.y4m
         check "progressive under grain $strength" verdict grain.y4m progressive
         ffmpeg -nostdin -v error -y -i tff.y4m -vf "noise=alls=$strength:allf=t:all_seed=7" -strict -1 grain.y4m
