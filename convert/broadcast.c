@@ -75,7 +75,7 @@ static void release(run *r) {
 }
 
 static weft_status refuse_linear(const weft_job *job, weft_error *err) {
-    const wf_sink_kind *sink = wf_sink_for(job->output, err);
+    const wf_sink_kind *sink = wf_sink_for(job->output, job->codec, err);
     if (!sink) return WEFT_USAGE;
     if (sink->layout != WF_LINEAR) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE,

@@ -170,7 +170,7 @@ static const char notes[] =
 #define OUTPUT_SIDE                                                                            \
     "raster", "aperture", "temporal-width", "shutter-angle", "shutter-position", "scan-skew",  \
         "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
-        "chroma", "legalize", "dither"
+        "chroma", "legalize", "dither", "codec", "audio"
 #define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume"
 #define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
 

@@ -13,4 +13,13 @@ typedef struct wf_colors {
 
 const wf_colors *wf_colors_of(wf_matrix matrix);
 
+/* What files call colors: code points of Rec. ITU-T H.273. */
+typedef struct wf_color_tags {
+    int primaries, transfer, matrix;
+} wf_color_tags;
+
+/* Those of codes that are in a space of color/weft.ocio, with the raster's Y'CbCr; of a space
+ * that has no code points, the raster's own. */
+wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix);
+
 #endif

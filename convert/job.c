@@ -17,9 +17,9 @@ weft_job *weft_job_new(void) {
 
 void weft_job_free(weft_job *job) {
     if (!job) return;
-    char *const texts[] = {job->output,   job->frames, job->layer,     job->part, job->ocio,
-                           job->from,     job->to,     job->display,   job->view, job->look,
-                           job->timecode, job->report, job->oversample};
+    char *const texts[] = {job->output,   job->frames, job->layer,      job->part, job->ocio,
+                           job->from,     job->to,     job->display,    job->view, job->look,
+                           job->timecode, job->report, job->oversample, job->codec};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);
     for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
     for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);

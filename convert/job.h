@@ -63,6 +63,8 @@ struct weft_job {
     wf_on_empty on_empty;
 
     char *timecode;
+    char *codec;       /* NULL: the container's default */
+    int silent_tracks; /* of sound, in containers */
     wf_on_missing on_missing;
     wf_nan_fix nan_fix;
     int chunk, chunk_count; /* 1-based */

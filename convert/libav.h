@@ -1,9 +1,21 @@
 #ifndef WF_CONVERT_LIBAV_H
 #define WF_CONVERT_LIBAV_H
 
+#include "convert/delivery.h"
 #include "convert/video_kinds.h"
 
 /* wf_libav_kind, the entry point of the libav module: how it reads video. */
 typedef const wf_video_kind *wf_libav_kind_fn(void);
+
+/* wf_libav_writer_of, the other: how it writes deliveries. open's state is freed by commit, in
+ * any case, or by abandon. The delivery takes the options: wf_delivery_check has passed. */
+typedef struct wf_libav_writer {
+    weft_status (*open)(const wf_sink_options *options, const wf_delivery *delivery,
+                        void **state, weft_error *err);
+    weft_status (*write)(void *state, const wf_frame *frame, weft_error *err);
+    weft_status (*commit)(void *state, weft_error *err);
+    void (*abandon)(void *state);
+} wf_libav_writer;
+typedef const wf_libav_writer *wf_libav_writer_fn(void);
 
 #endif

@@ -229,3 +229,14 @@ weft_status wf_set_frames(weft_job *job, const wf_option_row *row, const char *v
     wf_range_free(&range);
     return status ? status : wf_set_text(job, row, value, err);
 }
+
+weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *value,
+                         weft_error *err) {
+    char rest;
+    int tracks = 0;
+    bool none = !strcmp(value, "none");
+    if (!none && (sscanf(value, "silent:%2d%c", &tracks, &rest) != 1 || tracks < 1))
+        return refuse(row, value, "none, or silent:N with N tracks from 1 to 16", err);
+    job->silent_tracks = tracks;
+    return WEFT_OK;
+}

@@ -6,8 +6,8 @@
 /* ---- The table (cli.md) ---- */
 
 static const char shape[] = "Raster and aperture", timing[] = "Time", input[] = "Input",
-                  color[] = "Color", codes[] = "Codes", running[] = "Running",
-                  scene[] = "Scene and samples";
+                  color[] = "Color", codes[] = "Codes", files[] = "Files",
+                  running[] = "Running", scene[] = "Scene and samples";
 
 #define ROW(group, name, takes, preset, help, set_, ...)                                       \
     { {name, takes, preset, help, group}, .set = wf_##set_, __VA_ARGS__ }
@@ -116,6 +116,13 @@ static const wf_option_row rows[] = {
         set_choice, AT(dither), INITIAL),
     ROW(codes, "legalize", "none|clip", "none", "Whether to hold codes within the legal range.",
         set_choice, AT(legalize), INITIAL),
+
+    ROW(files, "codec", "NAME", "the container's",
+        "What .mov, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, ffv1 and others; a "
+        "wrong name lists them.",
+        set_text, AT(codec)),
+    ROW(files, "audio", "none|silent:N", "none",
+        "Silent tracks of sound in .mov, .mxf and .mkv: 24 bits, 48 kHz.", set_audio, INITIAL),
 
     ROW(running, "chunk", "I/N", "1/1",
         "Make only the I-th of N runs of frames; all of them joined are the whole.", set_chunk,

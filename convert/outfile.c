@@ -108,6 +108,37 @@ weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes,
     return code ? stick(file, code, "cannot be written", err) : WEFT_OK;
 }
 
+/* Returns 0 or an errno. */
+static int write_waiting(wf_outfile *file) {
+    struct iovec piece = {file->buffer, file->used};
+    file->used = 0;
+    return write_pieces(file->fd, &piece, 1);
+}
+
+weft_status wf_outfile_seek(wf_outfile *file, int64_t offset, weft_error *err) {
+    if (file->status) return wf_fail(err, file->status, "%s", file->failure.text);
+    int code = write_waiting(file);
+    if (code) return stick(file, code, "cannot be written", err);
+    if (lseek(file->fd, offset, SEEK_SET) < 0)
+        return stick(file, errno, "cannot be written from another place on", err);
+    return WEFT_OK;
+}
+
+weft_status wf_outfile_read(wf_outfile *file, int64_t offset, void *data, size_t bytes,
+                            size_t *got, weft_error *err) {
+    *got = 0;
+    if (file->status) return wf_fail(err, file->status, "%s", file->failure.text);
+    int code = write_waiting(file);
+    if (code) return stick(file, code, "cannot be written", err);
+    while (*got < bytes) {
+        ssize_t n = pread(file->fd, (char *)data + *got, bytes - *got, offset + (off_t)*got);
+        if (n < 0 && errno != EINTR) return stick(file, errno, "cannot be read back", err);
+        if (!n) break;
+        if (n > 0) *got += (size_t)n;
+    }
+    return WEFT_OK;
+}
+
 /* ---- Opening and closing ---- */
 
 static void release(wf_outfile *file) {
@@ -168,9 +199,7 @@ static int sync_data(int fd) {
 
 static weft_status flush(wf_outfile *file, weft_error *err) {
     if (file->status) return wf_fail(err, file->status, "%s", file->failure.text);
-    struct iovec piece = {file->buffer, file->used};
-    file->used = 0;
-    int code = write_pieces(file->fd, &piece, 1);
+    int code = write_waiting(file);
     if (code) return stick(file, code, "cannot be written", err);
     /* Before the name is given: the data are whole on the disk, or the name does not appear. */
     if (file->named) code = sync_data(file->fd);

@@ -1,6 +1,8 @@
 #ifndef WF_CONVERT_OUTFILE_H
 #define WF_CONVERT_OUTFILE_H
 
+#include <stdint.h>
+
 #include "convert/fail.h"
 
 /* A file that appears at its final name whole or not at all: written without a name (O_TMPFILE)
@@ -13,6 +15,11 @@ typedef struct wf_outfile wf_outfile;
 weft_status wf_outfile_open(const char *path, bool overwrite, wf_outfile **out,
                             weft_error *err);
 weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes, weft_error *err);
+/* Goes on at another place of a regular file; past its end the gap is zeros. */
+weft_status wf_outfile_seek(wf_outfile *file, int64_t offset, weft_error *err);
+/* Reads back what was written there: *got bytes, fewer at the end of the file. */
+weft_status wf_outfile_read(wf_outfile *file, int64_t offset, void *data, size_t bytes,
+                            size_t *got, weft_error *err);
 weft_status wf_outfile_commit(wf_outfile *file, weft_error *err); /* frees file in any case */
 void wf_outfile_abandon(wf_outfile *file);
 

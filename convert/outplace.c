@@ -94,7 +94,7 @@ static weft_status refuse_directory(const wf_outplace *place, const char *direct
 /* A file without a name can be given one only through /proc. */
 static int open_nameless(const char *directory) {
     char self[64];
-    int fd = open(directory, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    int fd = open(directory, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (fd < 0) return -1;
     snprintf(self, sizeof self, "/proc/self/fd/%d", fd);
     if (!access(self, F_OK)) return fd;
@@ -124,7 +124,7 @@ static char *beside(const wf_outplace *place, make_fn *make, int *fd) {
 
 static int make_new(const char *name, int fd) {
     (void)fd;
-    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
 static weft_status open_named(wf_outplace *place, const char *directory, int *fd,

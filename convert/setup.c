@@ -258,6 +258,10 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
     if (sink->fixed_422 && !subsampled)
         return wf_fail(err, WEFT_USAGE, "%s: %s is always 4:2:2; leave out --chroma 444",
                        job->output, sink->name);
+    if (job->silent_tracks && !sink->check)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: %s has no sound; --audio is for .mov, .mxf and .mkv", job->output,
+                       sink->name);
     if (job->chunk_count > 1 && !sink->joins)
         return wf_fail(err, WEFT_USAGE,
                        "%s: chunks of %s cannot be joined; write an image sequence, "
@@ -267,7 +271,7 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
 }
 
 weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
-    s->sink = wf_sink_for(job->output, err);
+    s->sink = wf_sink_for(job->output, job->codec, err);
     if (!s->sink) return WEFT_USAGE;
     int bits = job->bits ? job->bits : s->sink->default_bits;
     weft_status status = check_output(job, s->sink, bits, err);
@@ -284,9 +288,13 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .stream_header = job->chunk == 1,
         .timecode = job->timecode,
         .color_space = s->color_space,
+        .codec = job->codec,
+        .silent_tracks = job->silent_tracks,
+        .threads = job->threads,
         .overwrite = job->overwrite,
         .resume = job->resume,
     };
+    if (s->sink->check && (status = s->sink->check(&s->sink_options, err))) return status;
     snprintf(s->color_space, sizeof s->color_space, "%s",
              wf_colors_of(job->raster.matrix)->space);
     s->encoding = (wf_encoding){

@@ -7,6 +7,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "convert/delivery.h"
 #include "convert/sequence.h"
 #include "convert/sink_kinds.h"
 
@@ -15,8 +16,12 @@ static const wf_sink_kind *const kinds[] = {
     &wf_sink_tiff, &wf_sink_png,  &wf_sink_hash, &wf_sink_null,
 };
 
+#define KINDS (sizeof kinds / sizeof *kinds)
+
 const wf_sink_kind *wf_sink_at(size_t index) {
-    return index < sizeof kinds / sizeof *kinds ? kinds[index] : NULL;
+    if (index < KINDS) return kinds[index];
+    const wf_delivery *delivery = wf_delivery_at(index - KINDS);
+    return delivery ? &delivery->kind : NULL;
 }
 
 /* ---- Names ---- */
@@ -44,10 +49,17 @@ static bool ends_as_one(const char *output, const char *endings, bool scheme) {
     return false;
 }
 
+static const wf_sink_kind *find_kind(const char *output) {
+    for (int scheme = 1; scheme >= 0; scheme--) /* hash:out.exr is a hash */
+        for (size_t i = 0; i < KINDS; i++)
+            if (ends_as_one(output, kinds[i]->endings, scheme)) return kinds[i];
+    return NULL;
+}
+
 /* "out.y4m, out.v210, .., out.####.exr, .., hash:FILE, null:" */
 static void list_outputs(char *text, size_t size) {
     size_t used = 0;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && used < size; i++) {
+    for (size_t i = 0; i < KINDS && used < size; i++) {
         const char *ending = kinds[i]->endings;
         int length = (int)strcspn(ending, " ");
         bool scheme = is_scheme(ending, (size_t)length);
@@ -59,26 +71,24 @@ static void list_outputs(char *text, size_t size) {
     }
 }
 
-const wf_sink_kind *wf_sink_for(const char *output, weft_error *err) {
+const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_error *err) {
     char there[256];
-    for (int scheme = 1; scheme >= 0; scheme--) /* hash:out.exr is a hash */
-        for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-            if (ends_as_one(output, kinds[i]->endings, scheme)) return kinds[i];
-    if (ends_as_one(output, "mov mxf mkv mp4", false))
-        wf_fail(
-            err, WEFT_USAGE,
-            "%.500s: containers (.mov .mxf .mkv .mp4) are not built in yet; write Y4M and let "
-            "ffmpeg wrap it (weft convert .. -o - | ffmpeg -i - ..), or write out.v210 or "
-            "out.####.dpx",
-            output);
-    else {
-        list_outputs(there, sizeof there);
-        wf_fail(
-            err, WEFT_USAGE,
+    bool container = false;
+    const wf_sink_kind *kind = find_kind(output);
+    const wf_delivery *delivery = kind ? NULL : wf_delivery_for(output, codec, &container, err);
+    if (delivery) return &delivery->kind;
+    if (kind && !codec) return kind;
+    if (kind)
+        wf_fail(err, WEFT_USAGE,
+                "--codec %.100s: %.500s is %s, which has no codec; it is for .mov, .mxf and "
+                ".mkv",
+                codec, output, kind->name);
+    if (kind || container) return NULL;
+    list_outputs(there, sizeof there);
+    wf_fail(err, WEFT_USAGE,
             "%.500s: the name of an output says what it is, and this one does not; there are "
-            "%s, and - for Y4M on standard output",
+            "%s, out.mov, out.mxf, out.mkv, and - for Y4M on standard output",
             output, there);
-    }
     return NULL;
 }
 

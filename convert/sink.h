@@ -20,6 +20,9 @@ typedef struct wf_sink_options {
     const char *timecode;      /* of frame 0; validated */
     const char *color_space;   /* what the codes are in, for metadata; "" if unknown */
     wf_rational subframe_rate; /* "frames" are subframes; {0, 0}: they are frames */
+    const char *codec;         /* containers: what is coded; NULL: the container's default */
+    int silent_tracks;         /* containers: of sound */
+    int threads;               /* that an encoder may use; 0: all */
     bool overwrite, resume;
 } wf_sink_options;
 
@@ -45,6 +48,8 @@ typedef struct wf_sink_kind {
     bool sequence;   /* one file a frame, named by a pattern */
     bool joins;      /* chunks of it can be joined by cat, or are files of their own */
     bool fixed_422;  /* 4:2:2 is the only sampling it takes */
+    /* Whether it takes all of that, before anything is read; NULL: it does. */
+    weft_status (*check)(const wf_sink_options *options, weft_error *err);
     weft_status (*open)(const wf_sink_options *options, wf_sink **out, weft_error *err);
     weft_status (*write)(wf_sink *sink, const wf_frame *frame, weft_error *err);
     weft_status (*commit)(wf_sink *sink,
@@ -55,8 +60,9 @@ typedef struct wf_sink_kind {
 /* The registry, by index; NULL past the end. */
 const wf_sink_kind *wf_sink_at(size_t index);
 
-/* The kind an output's name asks for; NULL with an error that lists what there is. */
-const wf_sink_kind *wf_sink_for(const char *output, weft_error *err);
+/* The kind that an output's name asks for and, in a container, the codec (NULL: its default);
+ * NULL with an error that lists what there is. */
+const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_error *err);
 
 /* Whether frame is already there, whole (sequences), or the whole output is (index < 0). */
 bool wf_sink_present(const wf_sink_kind *kind, const char *output, int64_t frame);

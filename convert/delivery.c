@@ -1,0 +1,295 @@
+/* The table of deliveries. */
+#include "convert/delivery.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "convert/sink_kinds.h"
+#include "filters/near.h"
+
+/* ---- Rasters of the codecs ---- */
+
+#define FIELDS      (WF_SCAN_TOP | WF_SCAN_BOTTOM)
+#define ANY_SCAN    (FIELDS | WF_SCAN_WHOLE)
+#define RATES_I     (WF_RATE_25 | WF_RATE_29_97 | WF_RATE_30)
+#define RATES_P     (WF_RATE_23_976 | WF_RATE_24 | RATES_I)
+#define RATES_HIGH  (WF_RATE_50 | WF_RATE_59_94 | WF_RATE_60)
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+#define MEGABITS    1000000
+
+static const wf_delivery_form any_raster[] = {{.scans = ANY_SCAN}};
+static const wf_delivery_form dnxhr_forms[] = {
+    {.scans = WF_SCAN_WHOLE, .bits = 10, .options = "profile=dnxhr_hqx"},
+    {.scans = WF_SCAN_WHOLE, .bits = 8, .options = "profile=dnxhr_hq"},
+};
+
+/* Frames of one table of DNxHD have one size, whatever the rate: the bit rate is its name. */
+static const wf_delivery_form dnxhd_forms[] = {
+    {1920, 1080, RATES_I, WF_SCAN_TOP, 10, 185 * MEGABITS, 0, 0, 0, NULL},
+    {1920, 1080, RATES_I, WF_SCAN_TOP, 8, 120 * MEGABITS, 0, 0, 0, NULL},
+    {1920, 1080, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 10, 185 * MEGABITS, 0, 0, 0, NULL},
+    {1920, 1080, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 8, 120 * MEGABITS, 0, 0, 0, NULL},
+    {1280, 720, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 10, 180 * MEGABITS, 0, 0, 0, NULL},
+    {1280, 720, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 8, 120 * MEGABITS, 0, 0, 0, NULL},
+};
+
+static const wf_delivery_form xdcam_forms[] = {
+    {1920, 1080, WF_RATE_25 | WF_RATE_29_97, WF_SCAN_TOP, 8, 50 * MEGABITS, 0, 0, 0, NULL},
+    {1920, 1080, WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97, WF_SCAN_WHOLE, 8, 50 * MEGABITS,
+     0, 0, 0, NULL},
+    {1280, 720, WF_RATE_50 | WF_RATE_59_94, WF_SCAN_WHOLE, 8, 50 * MEGABITS, 0, 0, 0, NULL},
+};
+
+static const wf_delivery_form avci_forms[] = {
+    {1920, 1080, WF_RATE_25 | WF_RATE_29_97, WF_SCAN_TOP, 10, 0, 0, 0, 0, NULL},
+    {1920, 1080, WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97, WF_SCAN_WHOLE, 10, 0, 0, 0, 0,
+     NULL},
+    {1280, 720, WF_RATE_50 | WF_RATE_59_94, WF_SCAN_WHOLE, 10, 0, 0, 0, 0, NULL},
+};
+
+/* SMPTE ST 356 codes lines from 7 and 320 of 625 and from 7 and 270 of 525. 49999840 is what
+ * fills a whole number of bytes a frame at 30000/1001. */
+static const wf_delivery_form imx_forms[] = {
+    {720, 576, WF_RATE_25, WF_SCAN_TOP, 8, 50 * MEGABITS, 0, 0, 32, NULL},
+    {720, 486, WF_RATE_29_97, WF_SCAN_TOP, 8, 49999840, 0, 0, 26, NULL},
+};
+
+/* SMPTE ST 314 takes lines from 23 and 285 of 525 and from 23 and 335 of 625: bottom first. */
+static const wf_delivery_form dv_forms[] = {
+    {720, 480, WF_RATE_29_97, WF_SCAN_BOTTOM, 8, 0, 0, 0, 0, NULL},
+    {720, 486, WF_RATE_29_97, WF_SCAN_BOTTOM, 8, 0, 4, 480, 0, NULL},
+    {720, 486, WF_RATE_29_97, WF_SCAN_TOP, 8, 0, 5, 480, 0, NULL},
+    {720, 576, WF_RATE_25, WF_SCAN_BOTTOM, 8, 0, 0, 0, 0, NULL},
+};
+
+/* ---- Codecs ---- */
+
+#define BITS(n) (1u << (n))
+#define KIND(codec, ending, about, bits, preset, always_422)                                   \
+    .kind = {.name = codec,                                                                    \
+             .endings = ending,                                                                \
+             .help = about,                                                                    \
+             .layout = WF_YCBCR,                                                               \
+             .bits_mask = bits,                                                                \
+             .default_bits = preset,                                                           \
+             .fixed_422 = always_422,                                                          \
+             .check = wf_delivery_check,                                                       \
+             .open = wf_delivery_open,                                                         \
+             .write = wf_delivery_write,                                                       \
+             .commit = wf_delivery_commit,                                                     \
+             .abandon = wf_delivery_abandon}
+#define FORMS(list) .forms = (list), .form_count = COUNT(list)
+
+#define V210   .encoder = "v210", FORMS(any_raster)
+#define PRORES .encoder = "prores_ks", FORMS(any_raster)
+#define DNXHD  .encoder = "dnxhd", .encoder_options = "profile=dnxhd", FORMS(dnxhd_forms)
+#define DVCPRO .encoder = "dvvideo", FORMS(dv_forms)
+#define MPEG2_OPTIONS                                                                          \
+    "dc=10:intra_vlc=1:non_linear_quant=1:qmin=1:seq_disp_ext=always:video_format=component"
+#define XDCAM                                                                                  \
+    .encoder = "mpeg2video",                                                                   \
+    .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=12:bf=2:flags=+cgop:"            \
+                                     "sc_threshold=1000000000:bufsize=36408333:"               \
+                                     "rc_max_vbv_use=1:rc_min_vbv_use=1",                      \
+    FORMS(xdcam_forms), .pictures_a_group = 12, .constant = true, .one_thread = true
+#define IMX                                                                                    \
+    .encoder = "mpeg2video",                                                                   \
+    .encoder_options = MPEG2_OPTIONS ":profile=0:level=5:qmax=12:flags=+low_delay:"            \
+                                     "rc_max_vbv_use=1:rc_min_vbv_use=1:"                      \
+                                     "rc_init_occupancy=2000000:bufsize=2000000",              \
+    FORMS(imx_forms), .constant = true, .one_thread = true
+#define AVCI                                                                                   \
+    .encoder = "libx264", .encoder_options = "avcintra-class=100", FORMS(avci_forms),          \
+    .one_thread = true
+#define MOV .muxer = "mov", .audio = "pcm_s24le"
+#define MXF .muxer = "mxf", .audio = "pcm_s24le"
+#define MKV .muxer = "matroska", .audio = "pcm_s24le"
+
+static const wf_delivery rows[] = {
+    {KIND("v210", "mov", "uncompressed, 10 bits", BITS(10), 10, true), MOV, V210},
+    {KIND("prores", "mov", "ProRes 422", BITS(10), 10, true), MOV, PRORES,
+     .encoder_options = "profile=standard:vendor=apl0"},
+    {KIND("prores-hq", "mov", "ProRes 422 HQ", BITS(10), 10, true), MOV, PRORES,
+     .encoder_options = "profile=hq:vendor=apl0"},
+    {KIND("dnxhd", "mov", "DNxHD, 185 to 440 Mb/s of 10 bits, 120 to 290 of 8",
+          BITS(8) | BITS(10), 10, true),
+     MOV, DNXHD},
+    {KIND("dnxhr", "mov", "DNxHR HQX of 10 bits, HQ of 8; progressive", BITS(8) | BITS(10), 10,
+          true),
+     MOV, .encoder = "dnxhd", FORMS(dnxhr_forms)},
+    {KIND("xdcamhd422", "mov", "MPEG-2 4:2:2 of 50 Mb/s", BITS(8), 8, true), MOV, XDCAM},
+    {KIND("dvcpro50", "mov", "DV of 50 Mb/s", BITS(8), 8, true), MOV, DVCPRO},
+    {KIND("avci100", "mov", "AVC-Intra 100", BITS(10), 10, true), MOV, AVCI},
+
+    {KIND("xdcamhd422", "mxf", "MPEG-2 4:2:2 of 50 Mb/s", BITS(8), 8, true), MXF, XDCAM},
+    {KIND("dnxhd", "mxf", "DNxHD", BITS(8) | BITS(10), 10, true), MXF, DNXHD},
+    {KIND("imx50", "mxf", "MPEG-2 D-10 of 50 Mb/s", BITS(8), 8, true), .muxer = "mxf_d10",
+     .audio = "pcm_s24le", .one_audio_stream = true, IMX},
+    {KIND("dvcpro50", "mxf", "DV of 50 Mb/s", BITS(8), 8, true), MXF, DVCPRO},
+    {KIND("avci100", "mxf", "AVC-Intra 100", BITS(10), 10, true), MXF, AVCI},
+
+    {KIND("ffv1", "mkv", "FFV1, lossless", BITS(8) | BITS(10) | BITS(12) | BITS(16), 10, false),
+     MKV, .encoder = "ffv1", .encoder_options = "level=3:slices=4:slicecrc=1:g=1",
+     FORMS(any_raster), .full_range = true},
+};
+
+#define ROWS COUNT(rows)
+
+const wf_delivery *wf_delivery_at(size_t index) {
+    return index < ROWS ? &rows[index] : NULL;
+}
+
+/* ---- Finding one ---- */
+
+static const char *ending_of(const char *output) {
+    const char *slash = strrchr(output, '/'), *dot = strrchr(output, '.');
+    return dot && (!slash || dot > slash) ? dot + 1 : "";
+}
+
+static bool ends_in(const wf_delivery *row, const char *ending) {
+    return !strcasecmp(row->kind.endings, ending);
+}
+
+/* "v210, prores, .."; of one ending or of all (NULL), each once. */
+static void list_codecs(const char *ending, char *text, size_t size) {
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < ROWS && used < size; i++) {
+        bool again = false;
+        for (size_t j = 0; j < i; j++)
+            again = again || (!ending && !strcmp(rows[j].kind.name, rows[i].kind.name));
+        if (again || (ending && !ends_in(&rows[i], ending))) continue;
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                 rows[i].kind.name);
+    }
+}
+
+void wf_delivery_codecs(char *text, size_t size) {
+    list_codecs(NULL, text, size);
+}
+
+static void refuse_codec(const char *output, const char *codec, weft_error *err) {
+    char there[256];
+    wf_near near = {.text = codec};
+    const wf_delivery *elsewhere = NULL;
+    for (size_t i = 0; i < ROWS; i++) {
+        wf_near_offer(&near, rows[i].kind.name);
+        if (!strcmp(rows[i].kind.name, codec)) elsewhere = &rows[i];
+    }
+    list_codecs(ending_of(output), there, sizeof there);
+    if (elsewhere)
+        wf_fail(err, WEFT_USAGE,
+                "%.500s: %s does not go into .%s; it goes into .%s, and .%s takes %s", output,
+                codec, ending_of(output), elsewhere->kind.endings, ending_of(output), there);
+    else if (near.best)
+        wf_fail(err, WEFT_USAGE, "--codec: '%.100s' is unknown; did you mean %s?", codec,
+                near.best);
+    else
+        wf_fail(err, WEFT_USAGE, "--codec: '%.100s' is unknown; .%s takes %s", codec,
+                ending_of(output), there);
+}
+
+const wf_delivery *wf_delivery_for(const char *output, const char *codec, bool *container,
+                                   weft_error *err) {
+    const char *ending = ending_of(output);
+    *container = false;
+    for (size_t i = 0; i < ROWS; i++) {
+        if (!ends_in(&rows[i], ending)) continue;
+        *container = true;
+        if (!codec || !strcmp(rows[i].kind.name, codec)) return &rows[i];
+    }
+    if (*container) refuse_codec(output, codec, err);
+    return NULL;
+}
+
+/* ---- What it takes ---- */
+
+static const struct {
+    wf_rational rate;
+    unsigned bit;
+    const char *text;
+} rates[] = {
+    {{24000, 1001}, WF_RATE_23_976, "23.976"},
+    {{24, 1}, WF_RATE_24, "24"},
+    {{25, 1}, WF_RATE_25, "25"},
+    {{30000, 1001}, WF_RATE_29_97, "29.97"},
+    {{30, 1}, WF_RATE_30, "30"},
+    {{50, 1}, WF_RATE_50, "50"},
+    {{60000, 1001}, WF_RATE_59_94, "59.94"},
+    {{60, 1}, WF_RATE_60, "60"},
+};
+
+static bool rate_fits(unsigned taken, wf_rational rate) {
+    for (size_t i = 0; i < COUNT(rates); i++)
+        if (taken & rates[i].bit && wf_ratio_equal(rate, rates[i].rate)) return true;
+    return !taken;
+}
+
+static unsigned scan_of(const wf_raster *raster) {
+    if (raster->scan != WF_INTERLACED) return WF_SCAN_WHOLE;
+    return raster->top_first ? WF_SCAN_TOP : WF_SCAN_BOTTOM;
+}
+
+static bool fits(const wf_delivery_form *form, const wf_raster *r) {
+    return (!form->width_px || (form->width_px == r->width_px && form->lines == r->lines)) &&
+           form->scans & scan_of(r) && rate_fits(form->rates, r->frame_rate);
+}
+
+/* "1920x1080 interlaced top first at 25 or 29.97" */
+static int tell_form(const wf_delivery_form *form, char *text, size_t size) {
+    const char *scan = form->scans == WF_SCAN_WHOLE    ? "progressive"
+                       : form->scans == WF_SCAN_TOP    ? "interlaced top first"
+                       : form->scans == WF_SCAN_BOTTOM ? "interlaced bottom first"
+                                                       : "of any scan";
+    int used = form->width_px
+                   ? snprintf(text, size, "%dx%d %s", form->width_px, form->lines, scan)
+                   : snprintf(text, size, "%s", scan);
+    const char *between = " at ";
+    for (size_t i = 0; i < COUNT(rates); i++) {
+        if (!(form->rates & rates[i].bit) || (size_t)used >= size) continue;
+        used += snprintf(text + used, size - (size_t)used, "%s%s", between, rates[i].text);
+        between = ", ";
+    }
+    return used;
+}
+
+static void refuse_raster(const wf_delivery *delivery, const wf_sink_options *o,
+                          weft_error *err) {
+    char there[512] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < delivery->form_count && used < sizeof there; i++) {
+        const wf_delivery_form *form = &delivery->forms[i];
+        if (form->bits && form->bits != o->bits) continue;
+        used += (size_t)snprintf(there + used, sizeof there - used, "%s", used ? "; " : "");
+        used += (size_t)tell_form(form, there + used, sizeof there - used);
+    }
+    wf_fail(err, WEFT_USAGE, "%.200s: %s of %d bits does not take %s (%dx%d, %s); it takes %s",
+            o->output, delivery->kind.name, o->bits, o->raster->name, o->raster->width_px,
+            o->raster->lines, wf_raster_order(o->raster), there);
+}
+
+const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
+                                             const wf_sink_options *o, weft_error *err) {
+    for (size_t i = 0; i < delivery->form_count; i++) {
+        const wf_delivery_form *form = &delivery->forms[i];
+        if ((!form->bits || form->bits == o->bits) && fits(form, o->raster)) return form;
+    }
+    refuse_raster(delivery, o, err);
+    return NULL;
+}
+
+/* Lines of the frame belong to the fields in turn, the top one to the second field where the
+ * raster is bottom first; of k dropped it loses the odd one. */
+wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *raster) {
+    wf_raster r = *raster;
+    int shift = form->skip_lines - form->above_lines;
+    r.lines = (form->kept_lines ? form->kept_lines : raster->lines) + form->above_lines;
+    if (shift % 2) r.top_first = r.scan == WF_INTERLACED && !r.top_first;
+    if (!raster->total_lines) return r;
+    bool top_is_first = wf_raster_map_top_first(r.line1, r.line2, r.total_lines);
+    int top = (shift + (shift > 0)) / 2, other = shift / 2;
+    r.line1 += top_is_first ? top : other;
+    r.line2 += top_is_first ? other : top;
+    return r;
+}

@@ -1,0 +1,80 @@
+/* Outputs in containers: what is asked for is held against the table of deliveries here, and
+ * written by the libav module. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/delivery.h"
+#include "convert/libav.h"
+#include "convert/module.h"
+#include "convert/sink_kinds.h"
+
+struct wf_sink {
+    const wf_libav_writer *writer;
+    void *state;
+};
+
+static const wf_delivery *delivery_of(const wf_sink_options *o) {
+    bool container;
+    return wf_delivery_for(o->output, o->codec, &container, NULL);
+}
+
+#define MOST_TRACKS 16
+
+static weft_status check_audio(const wf_sink_options *o, const wf_delivery *d,
+                               weft_error *err) {
+    bool groups = d->one_audio_stream && o->silent_tracks % 4;
+    if (o->silent_tracks <= MOST_TRACKS && !groups &&
+        !(d->one_audio_stream && o->silent_tracks > 8))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%.500s: %s takes %s tracks of sound, not %d", o->output,
+                   d->kind.name, d->one_audio_stream ? "4 or 8" : "up to 16", o->silent_tracks);
+}
+
+weft_status wf_delivery_check(const wf_sink_options *o, weft_error *err) {
+    const wf_delivery *d = delivery_of(o);
+    if (o->full_range && !d->full_range)
+        return wf_fail(err, WEFT_USAGE,
+                       "%.500s: readers take %s for narrow range; leave out --range full",
+                       o->output, d->kind.name);
+    if (!wf_delivery_form_for(d, o, err)) return WEFT_USAGE;
+    weft_status status = check_audio(o, d, err);
+    if (status || wf_module_built("libav")) return status;
+    return wf_fail(err, WEFT_FAILED,
+                   "%.500s: containers are written through libav, which this weft was built "
+                   "without: install libavformat-dev and libavcodec-dev and build it again, or "
+                   "write .y4m, .v210 or an image sequence",
+                   o->output);
+}
+
+weft_status wf_delivery_open(const wf_sink_options *o, wf_sink **out, weft_error *err) {
+    void *symbol;
+    wf_libav_writer_fn *writer;
+    weft_status status = wf_delivery_check(o, err);
+    if (!status) status = wf_module_symbol("libav", "wf_libav_writer_of", &symbol, err);
+    if (status) return status;
+    memcpy(&writer, &symbol, sizeof writer);
+    wf_sink *s = calloc(1, sizeof *s);
+    if (!s) return wf_fail(err, WEFT_NO_MEMORY, "%.500s: out of memory", o->output);
+    s->writer = writer();
+    status = s->writer->open(o, delivery_of(o), &s->state, err);
+    if (status)
+        free(s);
+    else
+        *out = s;
+    return status;
+}
+
+weft_status wf_delivery_write(wf_sink *s, const wf_frame *frame, weft_error *err) {
+    return s->writer->write(s->state, frame, err);
+}
+
+weft_status wf_delivery_commit(wf_sink *s, weft_error *err) {
+    weft_status status = s->writer->commit(s->state, err);
+    free(s);
+    return status;
+}
+
+void wf_delivery_abandon(wf_sink *s) {
+    s->writer->abandon(s->state);
+    free(s);
+}
