@@ -24,43 +24,48 @@ static const wf_delivery_form dnxhr_forms[] = {
     {.scans = WF_SCAN_WHOLE, .bits = 8, .options = "profile=dnxhr_hq"},
 };
 
+#define SIZE(width, height)  .width_px = (width), .lines = (height)
+#define SCAN(which, at)      .scans = WF_SCAN_##which, .rates = (at)
+#define TABLE(depth, number) .bits = (depth), .bit_rate = (number)*MEGABITS
+#define RATES_CAMERA         (WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97)
+
 /* Frames of one table of DNxHD have one size, whatever the rate: the bit rate is its name. */
 static const wf_delivery_form dnxhd_forms[] = {
-    {1920, 1080, RATES_I, WF_SCAN_TOP, 10, 185 * MEGABITS, 0, 0, 0, NULL},
-    {1920, 1080, RATES_I, WF_SCAN_TOP, 8, 120 * MEGABITS, 0, 0, 0, NULL},
-    {1920, 1080, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 10, 185 * MEGABITS, 0, 0, 0, NULL},
-    {1920, 1080, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 8, 120 * MEGABITS, 0, 0, 0, NULL},
-    {1280, 720, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 10, 180 * MEGABITS, 0, 0, 0, NULL},
-    {1280, 720, RATES_P | RATES_HIGH, WF_SCAN_WHOLE, 8, 120 * MEGABITS, 0, 0, 0, NULL},
+    {SIZE(1920, 1080), SCAN(TOP, RATES_I), TABLE(10, 185)},
+    {SIZE(1920, 1080), SCAN(TOP, RATES_I), TABLE(8, 120)},
+    {SIZE(1920, 1080), SCAN(WHOLE, RATES_P | RATES_HIGH), TABLE(10, 185)},
+    {SIZE(1920, 1080), SCAN(WHOLE, RATES_P | RATES_HIGH), TABLE(8, 120)},
+    {SIZE(1280, 720), SCAN(WHOLE, RATES_P | RATES_HIGH), TABLE(10, 180)},
+    {SIZE(1280, 720), SCAN(WHOLE, RATES_P | RATES_HIGH), TABLE(8, 120)},
 };
 
 static const wf_delivery_form xdcam_forms[] = {
-    {1920, 1080, WF_RATE_25 | WF_RATE_29_97, WF_SCAN_TOP, 8, 50 * MEGABITS, 0, 0, 0, NULL},
-    {1920, 1080, WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97, WF_SCAN_WHOLE, 8, 50 * MEGABITS,
-     0, 0, 0, NULL},
-    {1280, 720, WF_RATE_50 | WF_RATE_59_94, WF_SCAN_WHOLE, 8, 50 * MEGABITS, 0, 0, 0, NULL},
+    {SIZE(1920, 1080), SCAN(TOP, WF_RATE_25 | WF_RATE_29_97), TABLE(8, 50)},
+    {SIZE(1920, 1080), SCAN(WHOLE, RATES_CAMERA), TABLE(8, 50)},
+    {SIZE(1280, 720), SCAN(WHOLE, WF_RATE_50 | WF_RATE_59_94), TABLE(8, 50)},
 };
 
 static const wf_delivery_form avci_forms[] = {
-    {1920, 1080, WF_RATE_25 | WF_RATE_29_97, WF_SCAN_TOP, 10, 0, 0, 0, 0, NULL},
-    {1920, 1080, WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97, WF_SCAN_WHOLE, 10, 0, 0, 0, 0,
-     NULL},
-    {1280, 720, WF_RATE_50 | WF_RATE_59_94, WF_SCAN_WHOLE, 10, 0, 0, 0, 0, NULL},
+    {SIZE(1920, 1080), SCAN(TOP, WF_RATE_25 | WF_RATE_29_97)},
+    {SIZE(1920, 1080), SCAN(WHOLE, RATES_CAMERA)},
+    {SIZE(1280, 720), SCAN(WHOLE, WF_RATE_50 | WF_RATE_59_94)},
 };
 
-/* SMPTE ST 356 codes lines from 7 and 320 of 625 and from 7 and 270 of 525. 49999840 is what
- * fills a whole number of bytes a frame at 30000/1001. */
+/* SMPTE ST 356 codes lines from 7 and 320 of 625 and from 7 and 270 of 525. Frames have all
+ * one size, in 525 the 208540 bytes that libavformat makes of the rate that it takes there,
+ * which the encoder fills at the one beside it. */
 static const wf_delivery_form imx_forms[] = {
-    {720, 576, WF_RATE_25, WF_SCAN_TOP, 8, 50 * MEGABITS, 0, 0, 32, NULL},
-    {720, 486, WF_RATE_29_97, WF_SCAN_TOP, 8, 49999840, 0, 0, 26, NULL},
+    {SIZE(720, 576), SCAN(TOP, WF_RATE_25), TABLE(8, 50), .above_lines = 32},
+    {SIZE(720, 486), SCAN(TOP, WF_RATE_29_97), .bit_rate = 49999601, .stated_rate = 49999840,
+     .above_lines = 26},
 };
 
 /* SMPTE ST 314 takes lines from 23 and 285 of 525 and from 23 and 335 of 625: bottom first. */
 static const wf_delivery_form dv_forms[] = {
-    {720, 480, WF_RATE_29_97, WF_SCAN_BOTTOM, 8, 0, 0, 0, 0, NULL},
-    {720, 486, WF_RATE_29_97, WF_SCAN_BOTTOM, 8, 0, 4, 480, 0, NULL},
-    {720, 486, WF_RATE_29_97, WF_SCAN_TOP, 8, 0, 5, 480, 0, NULL},
-    {720, 576, WF_RATE_25, WF_SCAN_BOTTOM, 8, 0, 0, 0, 0, NULL},
+    {SIZE(720, 480), SCAN(BOTTOM, WF_RATE_29_97)},
+    {SIZE(720, 486), SCAN(BOTTOM, WF_RATE_29_97), .skip_lines = 4, .kept_lines = 480},
+    {SIZE(720, 486), SCAN(TOP, WF_RATE_29_97), .skip_lines = 5, .kept_lines = 480},
+    {SIZE(720, 576), SCAN(BOTTOM, WF_RATE_25)},
 };
 
 /* ---- Codecs ---- */
@@ -85,6 +90,7 @@ static const wf_delivery_form dv_forms[] = {
 #define PRORES .encoder = "prores_ks", FORMS(any_raster)
 #define DNXHD  .encoder = "dnxhd", .encoder_options = "profile=dnxhd", FORMS(dnxhd_forms)
 #define DVCPRO .encoder = "dvvideo", FORMS(dv_forms)
+/* With one thread the encoder's buffer is too small for the stuffing of a simple picture. */
 #define MPEG2_OPTIONS                                                                          \
     "dc=10:intra_vlc=1:non_linear_quant=1:qmin=1:seq_disp_ext=always:video_format=component"
 #define XDCAM                                                                                  \
@@ -92,16 +98,16 @@ static const wf_delivery_form dv_forms[] = {
     .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=12:bf=2:flags=+cgop:"            \
                                      "sc_threshold=1000000000:bufsize=36408333:"               \
                                      "rc_max_vbv_use=1:rc_min_vbv_use=1",                      \
-    FORMS(xdcam_forms), .pictures_a_group = 12, .constant = true, .one_thread = true
+    FORMS(xdcam_forms), .pictures_a_group = 12, .constant = true, .threads = 2
 #define IMX                                                                                    \
     .encoder = "mpeg2video",                                                                   \
     .encoder_options = MPEG2_OPTIONS ":profile=0:level=5:qmax=12:flags=+low_delay:"            \
                                      "rc_max_vbv_use=1:rc_min_vbv_use=1:"                      \
                                      "rc_init_occupancy=2000000:bufsize=2000000",              \
-    FORMS(imx_forms), .constant = true, .one_thread = true
+    FORMS(imx_forms), .constant = true, .threads = 2
 #define AVCI                                                                                   \
     .encoder = "libx264", .encoder_options = "avcintra-class=100", FORMS(avci_forms),          \
-    .one_thread = true
+    .threads = 1
 #define MOV .muxer = "mov", .audio = "pcm_s24le"
 #define MXF .muxer = "mxf", .audio = "pcm_s24le"
 #define MKV .muxer = "matroska", .audio = "pcm_s24le"

@@ -16,6 +16,7 @@ typedef struct wf_delivery_form {
     int skip_lines;      /* dropped above the picture: an odd number changes the order */
     int kept_lines;      /* of what is left; 0: all */
     int above_lines;     /* of the vertical interval, black, coded above the picture */
+    int64_t stated_rate; /* where the container is told another than the encoder; 0: the same */
     const char *options; /* the encoder's, beside those of the delivery; NULL: none */
 } wf_delivery_form;
 
@@ -38,11 +39,12 @@ typedef struct wf_delivery {
     const char *encoder_options;   /* "key=value:.."; NULL: none */
     const wf_delivery_form *forms; /* the first that fits is taken */
     size_t form_count;
-    int pictures_a_group;      /* of pictures, at 25 frames a second; 0: every one is whole */
-    const char *audio;         /* how silence is stored: the encoder's name */
-    bool one_audio_stream;     /* of all channels, 4 or 8 of them */
-    bool constant, one_thread; /* bit rate; more would not give the same bytes */
-    bool full_range;           /* is told to the reader, and so can be had */
+    int pictures_a_group;  /* of pictures, at 25 frames a second; 0: every one is whole */
+    const char *audio;     /* how silence is stored: the encoder's name */
+    bool one_audio_stream; /* of all channels, 4 or 8 of them */
+    bool constant;         /* bit rate */
+    int threads;           /* where another number makes other bytes; 0: any */
+    bool full_range;       /* is told to the reader, and so can be had */
 } wf_delivery;
 
 /* By index, the default of each container first; NULL past the end. */

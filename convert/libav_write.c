@@ -119,7 +119,7 @@ static void describe_codec(wf_writing *w, AVCodecContext *c) {
     if (interlaced && w->delivery->pictures_a_group) c->flags |= AV_CODEC_FLAG_INTERLACED_ME;
     c->flags |= AV_CODEC_FLAG_BITEXACT;
     if (w->format->oformat->flags & AVFMT_GLOBALHEADER) c->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-    c->thread_count = w->delivery->one_thread ? 1 : w->options.threads;
+    c->thread_count = w->delivery->threads ? w->delivery->threads : w->options.threads;
     if (w->form->bit_rate) c->bit_rate = w->form->bit_rate;
     if (w->delivery->constant) c->rc_min_rate = c->rc_max_rate = w->form->bit_rate;
     int group = w->delivery->pictures_a_group;
@@ -170,6 +170,7 @@ static weft_status open_stream(wf_writing *w, weft_error *err) {
     s->avg_frame_rate = s->r_frame_rate = w->codec->framerate;
     s->sample_aspect_ratio = w->codec->sample_aspect_ratio;
     s->codecpar->field_order = coded_order_of(w);
+    if (w->form->stated_rate) s->codecpar->bit_rate = w->form->stated_rate;
     return WEFT_OK;
 }
 
