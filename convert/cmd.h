@@ -36,7 +36,7 @@ typedef struct wf_cmd {
 } wf_cmd;
 
 extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
-    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info;
+    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify;
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
  * job. Operands are moved to the front of argv; *operand_count says how many. --name value,

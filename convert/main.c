@@ -12,7 +12,7 @@
 
 static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_render,    &wf_cmd_trace,
                                          &wf_cmd_measure, &wf_cmd_composite, &wf_cmd_filters,
-                                         &wf_cmd_rasters, &wf_cmd_info};
+                                         &wf_cmd_rasters, &wf_cmd_info,      &wf_cmd_verify};
 
 #define COMMANDS (sizeof commands / sizeof *commands)
 

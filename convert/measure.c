@@ -49,6 +49,7 @@ static const wf_measurement *const measurements[] = {&wf_measure_flicker, &wf_me
                                                      &wf_measure_legal};
 
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
+#define DELIVERY     3 /* from here on, those that a delivery is held to */
 
 typedef struct measuring {
     const char *path;
@@ -56,6 +57,7 @@ typedef struct measuring {
     wf_video *video, *reference;
     wf_signals *signals;
     wf_signal *signal[2]; /* of the frame in hand and of the one before, by turns */
+    size_t first; /* of the measurements */
     void *state[MEASUREMENTS];
     wf_difference *difference;
     int64_t frames;
@@ -97,7 +99,7 @@ static weft_status begin(measuring *m, weft_error *err) {
     if (!status) status = wf_signals_new(info, &m->signals, err);
     for (int i = 0; i < 2 && !status; i++)
         status = wf_signal_new(m->signals, &m->signal[i], err);
-    for (size_t i = 0; i < MEASUREMENTS && !status; i++) {
+    for (size_t i = m->first; i < MEASUREMENTS && !status; i++) {
         m->state[i] = measurements[i]->begin(info, m->options);
         if (!m->state[i]) status = wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", m->path);
     }
@@ -139,7 +141,7 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
         if (status || !frame) return status;
         wf_signal *signal = signal_of(m, m->frames);
         wf_signals_take(m->signals, frame, signal);
-        for (size_t i = 0; i < MEASUREMENTS; i++)
+        for (size_t i = m->first; i < MEASUREMENTS; i++)
             measurements[i]->add(m->state[i], signal, signal_of(m, m->frames - 1));
         show_progress(m);
     }
@@ -149,7 +151,7 @@ static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) 
     if (!m->frames) return wf_fail(err, WEFT_FAILED, "%s: there is no frame in it", m->path);
     figures->frames = m->frames;
     figures->info = *wf_video_info_of(m->video);
-    for (size_t i = 0; i < MEASUREMENTS; i++)
+    for (size_t i = m->first; i < MEASUREMENTS; i++)
         measurements[i]->finish(m->state[i], signal_of(m, m->frames - 1),
                                 signal_of(m, m->frames - 2), figures);
     if (m->difference) wf_difference_finish(m->difference, figures);
@@ -158,7 +160,7 @@ static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) 
 }
 
 static void end(measuring *m) {
-    for (size_t i = 0; i < MEASUREMENTS; i++) measurements[i]->free(m->state[i]);
+    for (size_t i = m->first; i < MEASUREMENTS; i++) measurements[i]->free(m->state[i]);
     wf_difference_free(m->difference);
     for (int i = 0; i < 2; i++) wf_signal_free(m->signal[i]);
     wf_signals_free(m->signals);
@@ -168,7 +170,10 @@ static void end(measuring *m) {
 
 weft_status wf_measure(const char *path, const wf_measure_options *options, wf_figures *figures,
                        weft_error *err) {
-    measuring m = {.path = path, .options = options, .began_s = wf_now_s()};
+    measuring m = {.path = path,
+                   .options = options,
+                   .first = options->of_delivery ? DELIVERY : 0,
+                   .began_s = wf_now_s()};
     *figures = (wf_figures){.frames = 0};
     for (size_t i = 0; wf_figure_at(i); i++) {
         const double none = NAN;

@@ -25,6 +25,7 @@ typedef struct wf_measure_options {
     wf_chart chart;
     double grating; /* cycles a frame line */
     bool want_heat;
+    bool of_delivery; /* only what a delivery is held to: order and legality */
     size_t max_memory_bytes;
     weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
     void *progress_user;

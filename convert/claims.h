@@ -1,0 +1,48 @@
+#ifndef WF_CONVERT_CLAIMS_H
+#define WF_CONVERT_CLAIMS_H
+
+#include <stdio.h>
+
+#include "convert/colors.h"
+#include "convert/fail.h"
+#include "filters/raster.h"
+
+/* What a delivered file says of itself, in its container and its streams; nothing here is
+ * looked up in pixels. */
+typedef struct wf_claims {
+    char container[16]; /* libavformat's name: "mov", "mxf", "matroska" */
+    char codec[24], profile[48], pixels[24];
+    int width_px, lines; /* as coded */
+    wf_rational rate, pixel_aspect;
+    bool scan_known, interlaced, top_first;
+    bool tagged; /* the next three are said */
+    wf_color_tags tags;
+    int64_t frames;    /* -1: not said */
+    double video_s;    /* how long the video is; 0: not said */
+    char timecode[32]; /* of the first frame, as it is written; "": none */
+    int sound_streams, sound_channels, sound_rate, sound_bits;
+    double sound_s; /* the shortest of them; 0: not said */
+
+    bool has_fiel, has_pasp, has_colr, has_clap; /* QuickTime's atoms */
+    int fiel[2];
+
+    bool has_line_map; /* MXF */
+    int line_map[2];
+    int frame_layout;   /* -1: none */
+    wf_rational aspect; /* of the picture; {0, 0}: none */
+    char pattern[8];    /* "OP1a"; "": no header */
+} wf_claims;
+
+/* Asks the container: through the libav module, and the parts of MOV and MXF that libav keeps
+ * to itself by own readers. Y4M, raw files and pictures are not asked: WEFT_USAGE. */
+weft_status wf_claims_read(const char *path, wf_claims *claims, weft_error *err);
+
+/* The own readers. What is not well formed ends the reading of it; nothing is read beyond the
+ * file. */
+void wf_claims_mov(FILE *file, wf_claims *claims);
+void wf_claims_mxf(FILE *file, wf_claims *claims);
+
+/* wf_libav_claims, an entry point of the libav module. */
+typedef weft_status wf_libav_claims_fn(const char *path, wf_claims *claims, weft_error *err);
+
+#endif
