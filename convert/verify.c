@@ -366,11 +366,11 @@ static const char *raster_of_lines(const wf_video_info *v) {
 }
 
 /* A raster of the table that is like the file in everything but its order. */
-static const char *raster_but_for_order(const wf_video_info *v) {
+static const char *raster_but_for_order(const wf_raster *said) {
     const wf_raster *r;
     for (size_t i = 0; (r = wf_raster_at(i)); i++)
-        if (r->width_px == v->width_px && r->lines == v->lines && r->scan == v->raster.scan &&
-            wf_ratio_equal(r->frame_rate, v->raster.frame_rate))
+        if (r->width_px == said->width_px && r->lines == said->lines && r->scan == said->scan &&
+            wf_ratio_equal(r->frame_rate, said->frame_rate))
             return r->name;
     return NULL;
 }
@@ -380,11 +380,15 @@ static const char *raster_but_for_order(const wf_video_info *v) {
 static void take_said_raster(subject *s) {
     const wf_video_info *v = &s->figures.info;
     char why[256];
-    bool made_up = strchr(v->raster.name, '@');
-    const char *coded = raster_of_lines(v), *near = made_up ? raster_but_for_order(v) : NULL;
-    const char *name = coded ? coded : near ? near : made_up ? NULL : v->raster.name;
     s->raster = v->raster;
-    s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why) : v->scan_known;
+    if (s->contained && s->claims.scan_known && !s->claims.interlaced)
+        s->raster.scan = WF_PROGRESSIVE;
+    bool made_up = strchr(v->raster.name, '@') || s->raster.scan != v->raster.scan;
+    const char *coded = raster_of_lines(v);
+    const char *near = made_up ? raster_but_for_order(&s->raster) : NULL;
+    const char *name = coded ? coded : near ? near : made_up ? NULL : v->raster.name;
+    s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why)
+                           : v->scan_known || s->claims.scan_known;
     if (coded) s->coded_lines = v->lines;
 }
 
