@@ -4,10 +4,10 @@
 #include "convert/outfile.h"
 #include "filters/raster.h"
 
-/* Mends in a finished file, before it gets its name, what libavformat 5.1 leaves out or writes
- * of its own belief. In MXF (muxers "mxf" and "mxf_d10", SMPTE ST 377-1) the line map and the
- * aspect ratio of every picture descriptor become the raster's, which is as it is in the file;
- * in QuickTime ("mov") the video's description gets a `fiel` atom where it has none. */
+/* Mends in a finished file, before it gets its name, what libavformat 5.1 writes of its own
+ * belief: in MXF (muxers "mxf" and "mxf_d10", SMPTE ST 377-1) the line map and the aspect ratio
+ * of every picture descriptor become the raster's, which is as it is in the file. Of other
+ * muxers nothing. */
 weft_status wf_container_mend(wf_outfile *file, const char *muxer, const wf_raster *raster,
                               weft_error *err);
 
