@@ -1,14 +1,28 @@
 #ifndef WF_CONVERT_CONTAINER_H
 #define WF_CONVERT_CONTAINER_H
 
+#include "convert/colors.h"
 #include "convert/outfile.h"
 #include "filters/raster.h"
 
-/* Mends in a finished file, before it gets its name, what libavformat 5.1 writes of its own
- * belief: in MXF (muxers "mxf" and "mxf_d10", SMPTE ST 377-1) the line map and the aspect ratio
- * of every picture descriptor become the raster's, which is as it is in the file. Of other
- * muxers nothing. */
-weft_status wf_container_mend(wf_outfile *file, const char *muxer, const wf_raster *raster,
+/* What a finished file has to say of its picture. */
+typedef struct wf_container_facts {
+    const char *muxer;       /* libavformat's name of what wrote it */
+    const wf_raster *raster; /* as it is in the file */
+    wf_color_tags tags;
+    const char *compressor; /* QuickTime: the codec in words, at most 31 bytes; NULL: none */
+} wf_container_facts;
+
+/* Mends in a finished file, before it gets its name, what libavformat 5.1 leaves out or writes
+ * of its own belief. Other muxers' files are left alone. mxf, mxf_d10 (SMPTE ST 377-1): the
+ * line map, the aspect ratio, the siting of chroma and the field that comes first, of every
+ * picture descriptor. mov (QuickTime File Format): fiel, colr, pasp and clap of the video's
+ * sample description, the words for its codec, and the clean aperture of tapt. */
+weft_status wf_container_mend(wf_outfile *file, const wf_container_facts *facts,
                               weft_error *err);
+
+/* The same for QuickTime alone (container_mov.c). */
+weft_status wf_container_mend_mov(wf_outfile *file, const wf_container_facts *facts,
+                                  weft_error *err);
 
 #endif

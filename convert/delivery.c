@@ -299,3 +299,35 @@ wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *rast
     r.line2 += top_is_first ? other : top;
     return r;
 }
+
+/* ---- QuickTime's names ---- */
+
+/* libavformat 5.1 takes 29.97 for 29 and does not find them. */
+wf_delivery_mark wf_delivery_quicktime(const wf_delivery *delivery, const wf_raster *raster) {
+    static const struct {
+        const char *codec;
+        int lines;
+        unsigned scan, rates;
+        wf_delivery_mark mark;
+    } marks[] = {
+        {"xdcamhd422", 1080, FIELDS, WF_RATE_25, {"xd5c", "XDCAM HD422 1080i50"}},
+        {"xdcamhd422", 1080, FIELDS, WF_RATE_29_97, {"xd5b", "XDCAM HD422 1080i60"}},
+        {"xdcamhd422", 1080, WF_SCAN_WHOLE, WF_RATE_23_976, {"xd5d", "XDCAM HD422 1080p24"}},
+        {"xdcamhd422", 1080, WF_SCAN_WHOLE, WF_RATE_25, {"xd5e", "XDCAM HD422 1080p25"}},
+        {"xdcamhd422", 1080, WF_SCAN_WHOLE, WF_RATE_29_97, {"xd5f", "XDCAM HD422 1080p30"}},
+        {"xdcamhd422", 720, WF_SCAN_WHOLE, WF_RATE_50, {"xd5a", "XDCAM HD422 720p50"}},
+        {"xdcamhd422", 720, WF_SCAN_WHOLE, WF_RATE_59_94, {"xd59", "XDCAM HD422 720p60"}},
+        {"avci100", 1080, FIELDS, WF_RATE_25, {"ai15", "AVC-Intra 100 1080i50"}},
+        {"avci100", 1080, FIELDS, WF_RATE_29_97, {"ai16", "AVC-Intra 100 1080i60"}},
+        {"avci100", 1080, WF_SCAN_WHOLE, WF_RATE_25, {"ai12", "AVC-Intra 100 1080p25"}},
+        {"avci100", 1080, WF_SCAN_WHOLE, WF_RATE_23_976, {"ai13", "AVC-Intra 100 1080p24"}},
+        {"avci100", 1080, WF_SCAN_WHOLE, WF_RATE_29_97, {"ai13", "AVC-Intra 100 1080p30"}},
+        {"avci100", 720, WF_SCAN_WHOLE, WF_RATE_50, {"ai1q", "AVC-Intra 100 720p50"}},
+        {"avci100", 720, WF_SCAN_WHOLE, WF_RATE_59_94, {"ai1p", "AVC-Intra 100 720p60"}},
+    };
+    for (size_t i = 0; i < COUNT(marks); i++)
+        if (!strcmp(delivery->kind.name, marks[i].codec) && raster->lines == marks[i].lines &&
+            marks[i].scan & scan_of(raster) && rate_fits(marks[i].rates, raster->frame_rate))
+            return marks[i].mark;
+    return (wf_delivery_mark){"", NULL};
+}

@@ -64,6 +64,13 @@ const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
 /* The raster as it is in the file: lines cut off and added, line map and order that follow. */
 wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *raster);
 
+/* What QuickTime calls one that has a code for every raster; {0}: libavformat knows. */
+typedef struct wf_delivery_mark {
+    char tag[5];      /* of the sample description */
+    const char *name; /* the same in words */
+} wf_delivery_mark;
+wf_delivery_mark wf_delivery_quicktime(const wf_delivery *delivery, const wf_raster *raster);
+
 /* Words for --codec's help: "v210, prores, ..". */
 void wf_delivery_codecs(char *text, size_t size);
 

@@ -27,6 +27,9 @@ int wf_klv_set_kind(const uint8_t key[WF_KLV_KEY_BYTES]);
 /* Whether a kind of set describes pictures: CDCI, RGBA, MPEG-2 or generic. */
 bool wf_klv_is_picture(int kind);
 
+/* Whether it is a fill item, whose value says nothing. */
+bool wf_klv_is_fill(const uint8_t key[WF_KLV_KEY_BYTES]);
+
 /* Offset of the value of an item of a set of `bytes` bytes; 0, *length 0: it has none. */
 size_t wf_klv_item(const uint8_t *set, size_t bytes, unsigned tag, size_t *length);
 
@@ -39,6 +42,8 @@ enum {
     WF_MXF_FRAME_LAYOUT = 0x320c, /* 0 full frame, 1 separate fields, 3 mixed, 4 segmented */
     WF_MXF_LINE_MAP = 0x320d,     /* batch of two: count, size, values */
     WF_MXF_ASPECT = 0x320e,       /* rational, of the picture */
+    WF_MXF_DOMINANCE = 0x3212,    /* the field that is first in time: 1 or 2 */
+    WF_MXF_SITING = 0x3303,       /* of chroma: 0 with the first luma sample of a pair */
     WF_MXF_START = 0x1501,
     WF_MXF_BASE = 0x1502,
     WF_MXF_DROP = 0x1503

@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 #include <libavutil/imgutils.h>
+#include <libavutil/intreadwrite.h>
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 #include <stdio.h>
@@ -25,6 +26,10 @@ weft_status wf_writing_failed(const wf_writing *w, const char *doing, int code,
     av_strerror(code, why, sizeof why);
     return wf_fail(err, code == AVERROR(ENOMEM) ? WEFT_NO_MEMORY : WEFT_FAILED,
                    "%.500s: %s: %s", w->options.output, doing, why);
+}
+
+static bool writes_mov(const wf_writing *w) {
+    return !strcmp(w->delivery->muxer, "mov");
 }
 
 static AVRational ratio(wf_rational r) {
@@ -171,18 +176,30 @@ static weft_status open_stream(wf_writing *w, weft_error *err) {
     s->sample_aspect_ratio = w->codec->sample_aspect_ratio;
     s->codecpar->field_order = coded_order_of(w);
     if (w->form->stated_rate) s->codecpar->bit_rate = w->form->stated_rate;
+    wf_delivery_mark mark = wf_delivery_quicktime(w->delivery, &w->raster);
+    if (*mark.tag && writes_mov(w)) {
+        s->codecpar->codec_tag = AV_RL32(mark.tag);
+        w->format->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL; /* or it takes its own */
+    }
     return WEFT_OK;
+}
+
+static const char *encoder_name(char name[64]) {
+    snprintf(name, 64, "weft %s", weft_version());
+    return name;
 }
 
 static weft_status write_header(wf_writing *w, weft_error *err) {
     AVDictionary **about = &w->format->metadata, *options = NULL;
+    char name[64];
     int code = av_dict_set(about, "timecode", w->options.timecode, 0);
     if (code >= 0) code = av_dict_set(about, "company_name", "weft", 0);
     if (code >= 0) code = av_dict_set(about, "product_name", "weft", 0);
     if (code >= 0) code = av_dict_set(about, "product_version", weft_version(), 0);
-    if (code >= 0 && !strcmp(w->delivery->muxer, "mov"))
-        code = av_dict_set(&options, "movflags", "write_colr", 0);
+    if (code >= 0) code = av_dict_set(about, "encoding_tool", encoder_name(name), 0);
     if (code >= 0) code = avformat_write_header(w->format, &options);
+    /* Which the muxer of QuickTime writes at the end, if it is not there at the beginning. */
+    if (code >= 0) code = av_dict_set(about, "encoder", name, 0);
     av_dict_free(&options);
     w->begun = code >= 0;
     return code < 0 ? wf_writing_failed(w, "its header cannot be written", code, err) : WEFT_OK;
@@ -318,6 +335,16 @@ static weft_status open_writing(const wf_sink_options *options, const wf_deliver
     return status;
 }
 
+static weft_status mend(wf_writing *w, weft_error *err) {
+    const wf_container_facts facts = {
+        .muxer = w->delivery->muxer,
+        .raster = &w->raster,
+        .tags = w->tags,
+        .compressor = wf_delivery_quicktime(w->delivery, &w->raster).name,
+    };
+    return wf_container_mend(w->file, &facts, err);
+}
+
 static weft_status commit(void *state, weft_error *err) {
     wf_writing *w = state;
     weft_status status = encode(w, NULL, err);
@@ -327,7 +354,7 @@ static weft_status commit(void *state, weft_error *err) {
         code = w->format->pb->error;
     }
     if (code < 0) status = wf_writing_failed(w, "it cannot be finished", code, err);
-    if (!status) status = wf_container_mend(w->file, w->delivery->muxer, &w->raster, err);
+    if (!status) status = mend(w, err);
     wf_outfile *file = w->file;
     release(w);
     if (!status) return wf_outfile_commit(file, err);
