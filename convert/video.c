@@ -87,15 +87,18 @@ static void find_raster(wf_video_info *info, const wf_video_label *label) {
         info->scan_known = true;
         return;
     }
-    const wf_raster *r;
-    for (size_t i = 0; (r = wf_raster_at(i)); i++)
-        if (fits(r, info, label) || fits_whole(r, info, label)) {
-            info->raster = *r;
-            if (!fits(r, info, label)) info->raster.scan = WF_PROGRESSIVE;
-            take_aspect(&info->raster, label->aspect);
-            return;
-        }
-    make_raster(info, label);
+    const wf_raster *r, *found = NULL;
+    for (size_t i = 0; !found && (r = wf_raster_at(i)); i++)
+        if (fits(r, info, label)) found = r;
+    for (size_t i = 0; !found && (r = wf_raster_at(i)); i++)
+        if (fits_whole(r, info, label)) found = r;
+    if (!found) {
+        make_raster(info, label);
+        return;
+    }
+    info->raster = *found;
+    if (!fits(found, info, label)) info->raster.scan = WF_PROGRESSIVE;
+    take_aspect(&info->raster, label->aspect);
 }
 
 static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_error *err) {
