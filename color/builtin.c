@@ -41,10 +41,11 @@ static const wf_space *find_input(const char *name, char *why, size_t why_size) 
     if (!space || !space->curve) return space;
     char linear[256];
     list_linear(linear, sizeof linear);
-    snprintf(why, why_size,
-             "the input cannot be in %s, which is encoded: what comes in is averaged as light and "
-             "must be linear; take one of %s",
-             space->name, linear);
+    snprintf(
+        why, why_size,
+        "the input cannot be in %s, which is encoded: what comes in is averaged as light and "
+        "must be linear; take one of %s",
+        space->name, linear);
     return NULL;
 }
 

@@ -9,13 +9,15 @@
  * exactly 1. Flat to 0.0053 dB up to 2.75/13.5 of the luma sampling rate, half at
  * 3.375/13.5, 64.3 dB down from 4.0/13.5 on; the template asks for 0.05 dB and 55 dB.
  * tests/test_chroma.c computes them again. */
+#define BT601_PAIRS                                                                            \
+    {                                                                                          \
+        OF_65536(20731), OF_65536(-6567), OF_65536(3559), OF_65536(-2170), OF_65536(1361),     \
+            OF_65536(-836), OF_65536(496), OF_65536(-268), OF_65536(134), OF_65536(-56)        \
+    }
+
 static const wf_chroma_filter filters[] = {
-    [WF_CHROMA_BT601] = {"bt601",
-                         10,
-                         true,
-                         {OF_65536(20731), OF_65536(-6567), OF_65536(3559), OF_65536(-2170),
-                          OF_65536(1361), OF_65536(-836), OF_65536(496), OF_65536(-268),
-                          OF_65536(134), OF_65536(-56)}},
+    [WF_CHROMA_BT601] = {"bt601", 10, true, BT601_PAIRS},
+    [WF_CHROMA_LUMA_ADJUST] = {"luma-adjust", 10, true, BT601_PAIRS},
     [WF_CHROMA_121] = {"121", 1, true, {0.25f}},
     [WF_CHROMA_BOX] = {"box", 1, false, {0.5f}},
 };

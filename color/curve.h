@@ -17,7 +17,7 @@ typedef enum wf_curve_kind {
 
 typedef struct wf_curve {
     wf_curve_kind kind;
-    float scale; /* PQ and HLG: reference white on the standard's scale */
+    float scale;                 /* PQ and HLG: reference white on the standard's scale */
     float power_high, power_low; /* p; high has few enough bits to be multiplied exactly */
     float gain, offset, toe_end, toe_slope;
 } wf_curve;

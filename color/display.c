@@ -59,23 +59,34 @@ void wf_display_init(wf_display *display, wf_primaries primaries, wf_transfer tr
             (float)light[transfer]((double)WF_DISPLAY_END * i / WF_DISPLAY_STEPS);
 }
 
-static float light_of(const wf_display *d, float signal) {
+/* Beyond the table: the curve of BT.1886 goes on, the others have ended. */
+static float light_beyond(const wf_display *d, float signal, float *slope) {
+    bool ended = d->transfer != WF_TRANSFER_BT1886 || signal > WF_MOST_SIGNAL;
+    float at = fminf(signal, WF_MOST_SIGNAL);
+    float light =
+        d->transfer == WF_TRANSFER_BT1886 ? powf(at, (float)GAMMA) : d->light[WF_DISPLAY_STEPS];
+    *slope = ended ? 0 : (float)GAMMA * light / at;
+    return light;
+}
+
+float wf_display_light(const wf_display *d, float signal, float *slope) {
+    const float scale = WF_DISPLAY_STEPS / WF_DISPLAY_END;
+    *slope = 0;
     if (!(signal > 0)) return 0;
-    if (signal >= WF_DISPLAY_END)
-        return d->transfer == WF_TRANSFER_BT1886
-                   ? powf(fminf(signal, WF_MOST_SIGNAL), (float)GAMMA)
-                   : d->light[WF_DISPLAY_STEPS];
-    float at = signal * (WF_DISPLAY_STEPS / WF_DISPLAY_END);
-    int step = (int)at;
-    float rest = at - (float)step;
-    return d->light[step] + rest * (d->light[step + 1] - d->light[step]);
+    if (signal >= WF_DISPLAY_END) return light_beyond(d, signal, slope);
+    float at = signal * scale;
+    int i = (int)at;
+    float step = d->light[i + 1] - d->light[i];
+    *slope = step * scale;
+    return d->light[i] + (at - (float)i) * step;
 }
 
 void wf_display_luminance(const wf_display *display, const float *const rgb[3], float *light,
                           size_t count) {
     for (size_t i = 0; i < count; i++) {
-        float sum = 0;
-        for (int c = 0; c < 3; c++) sum += display->weight[c] * light_of(display, rgb[c][i]);
+        float sum = 0, slope;
+        for (int c = 0; c < 3; c++)
+            sum += display->weight[c] * wf_display_light(display, rgb[c][i], &slope);
         light[i] = sum;
     }
 }

@@ -32,6 +32,9 @@ typedef struct wf_display {
 
 void wf_display_init(wf_display *display, wf_primaries primaries, wf_transfer transfer);
 
+/* Light of a signal, and how fast it grows with it. NaN counts as 0. */
+float wf_display_light(const wf_display *display, float signal, float *slope);
+
 /* Luminance of R'G'B', white being 1. Signals below 0 are dark. NaN counts as 0. */
 void wf_display_luminance(const wf_display *display, const float *const rgb[3], float *light,
                           size_t count);

@@ -1,7 +1,9 @@
 /* Display-encoded R'G'B' to code values. */
 #include "color/encoder.h"
 
+#include "color/adjust.h"
 #include "color/chroma.h"
+#include "color/legal.h"
 #include "color/line.h"
 
 /* Rec. ITU-R BT.601-7 item 2.5.1, BT.709-6 item 3.2, BT.2020-2 table 4. */
@@ -88,25 +90,59 @@ static void add_noise(const wf_encoding *e, int plane, double unit, float *signa
     }
 }
 
+/* Scratch of the parts of wf_encode_line, which take turns, behind the light that luma-adjust
+ * aims at. */
+static size_t light_samples(const wf_encoding *e) {
+    return e->ycbcr && e->chroma == WF_CHROMA_LUMA_ADJUST ? (size_t)e->width_px : 0;
+}
+
+static size_t larger(size_t a, size_t b) {
+    return a > b ? a : b;
+}
+
 size_t wf_encode_scratch(const wf_encoding *encoding) {
-    return filter_of(encoding) ? wf_chroma_scratch((size_t)encoding->width_px) : 0;
+    size_t width = (size_t)encoding->width_px, light = light_samples(encoding);
+    size_t most = filter_of(encoding) ? wf_chroma_scratch(width) : 0;
+    if (light) most = larger(most, wf_adjust_scratch(width));
+    if (encoding->legalize == WF_LEGAL_R103) most = larger(most, wf_legal_scratch(width));
+    return light + most;
+}
+
+/* R'G'B' to Y'CbCr, in place. */
+static void make_ycbcr(const wf_encoding *e, float *const rgb[3], float *scratch) {
+    const wf_line_ops *ops = wf_line_ops_best();
+    const wf_chroma_filter *filter = filter_of(e);
+    size_t width = (size_t)e->width_px, light = light_samples(e);
+    const float *const before[3] = {rgb[0], rgb[1], rgb[2]};
+    wf_ycbcr weights = wf_ycbcr_of(e->luma);
+    if (light) wf_display_luminance(e->display, before, scratch, width);
+    ops->ycbcr(&weights, rgb[0], rgb[1], rgb[2], width);
+    for (int c = 1; filter && c < 3; c++)
+        wf_chroma_decimate(filter, rgb[c], width, scratch + light);
+    if (light) wf_adjust_luma(e, rgb, scratch, scratch + light);
+}
+
+static void legalize(const wf_encoding *e, float *const plane[3], float *scratch) {
+    if (e->legalize != WF_LEGAL_R103) return;
+    if (e->ycbcr)
+        wf_legal_ycbcr(e, plane, scratch);
+    else
+        wf_legal_rgb(e, plane);
 }
 
 void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scratch,
                     uint16_t *const code[3]) {
     const wf_line_ops *ops = wf_line_ops_best();
-    const wf_chroma_filter *filter = filter_of(encoding);
     size_t width = (size_t)encoding->width_px;
-    if (encoding->ycbcr) {
-        wf_ycbcr weights = wf_ycbcr_of(encoding->luma);
-        ops->ycbcr(&weights, rgb[0], rgb[1], rgb[2], width);
-    }
+    if (encoding->ycbcr) make_ycbcr(encoding, rgb, scratch);
+    legalize(encoding, rgb, scratch);
     for (int c = 0; c < 3; c++) {
         bool chroma = encoding->ycbcr && c > 0;
-        if (chroma && filter) wf_chroma_decimate(filter, rgb[c], width, scratch);
         wf_quantizer quantizer = quantizer_of(encoding, chroma);
-        size_t count = chroma && filter ? width / 2 : width;
+        size_t count = chroma && filter_of(encoding) ? width / 2 : width;
         if (encoding->dither) add_noise(encoding, c, quantizer.scale, rgb[c], count);
         ops->quantize(&quantizer, code[c], rgb[c], count);
     }
+    if (encoding->legalize == WF_LEGAL_R103 && encoding->legal)
+        wf_legal_count(encoding, code, scratch);
 }

@@ -6,24 +6,50 @@
 
 /* ---- Primaries ---- */
 
-#define D65        {0.3127, 0.3290}
-#define ACES_WHITE {0.32168, 0.33767}
+#define D65                                                                                    \
+    { 0.3127, 0.3290 }
+#define ACES_WHITE                                                                             \
+    { 0.32168, 0.33767 }
 
 const wf_chromaticities wf_chromaticities_of[WF_PRIMARIES_COUNT] = {
-    [WF_PRIMARIES_709] = {"Rec.709", "Rec. ITU-R BT.709-6 item 1.3",
-                          {0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, D65},
-    [WF_PRIMARIES_SMPTE_C] = {"SMPTE-C", "SMPTE RP 145; Rec. ITU-R BT.601-7 for 525 lines",
-                              {0.630, 0.340}, {0.310, 0.595}, {0.155, 0.070}, D65},
-    [WF_PRIMARIES_EBU] = {"EBU", "EBU Tech. 3213; Rec. ITU-R BT.601-7 for 625 lines",
-                          {0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, D65},
-    [WF_PRIMARIES_2020] = {"Rec.2020", "Rec. ITU-R BT.2020-2 table 3",
-                           {0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, D65},
-    [WF_PRIMARIES_P3] = {"P3-D65", "SMPTE RP 431-2, with D65 SMPTE EG 432-1",
-                         {0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, D65},
-    [WF_PRIMARIES_AP0] = {"AP0", "SMPTE ST 2065-1",
-                          {0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, ACES_WHITE},
-    [WF_PRIMARIES_AP1] = {"AP1", "Academy S-2014-004 (ACEScg)",
-                          {0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, ACES_WHITE},
+    [WF_PRIMARIES_709] = {"Rec.709",
+                          "Rec. ITU-R BT.709-6 item 1.3",
+                          {0.640, 0.330},
+                          {0.300, 0.600},
+                          {0.150, 0.060},
+                          D65},
+    [WF_PRIMARIES_SMPTE_C] = {"SMPTE-C",
+                              "SMPTE RP 145; Rec. ITU-R BT.601-7 for 525 lines",
+                              {0.630, 0.340},
+                              {0.310, 0.595},
+                              {0.155, 0.070},
+                              D65},
+    [WF_PRIMARIES_EBU] = {"EBU",
+                          "EBU Tech. 3213; Rec. ITU-R BT.601-7 for 625 lines",
+                          {0.640, 0.330},
+                          {0.290, 0.600},
+                          {0.150, 0.060},
+                          D65},
+    [WF_PRIMARIES_2020] = {"Rec.2020",
+                           "Rec. ITU-R BT.2020-2 table 3",
+                           {0.708, 0.292},
+                           {0.170, 0.797},
+                           {0.131, 0.046},
+                           D65},
+    [WF_PRIMARIES_P3] = {"P3-D65",
+                         "SMPTE RP 431-2, with D65 SMPTE EG 432-1",
+                         {0.680, 0.320},
+                         {0.265, 0.690},
+                         {0.150, 0.060},
+                         D65},
+    [WF_PRIMARIES_AP0] =
+        {"AP0", "SMPTE ST 2065-1", {0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, ACES_WHITE},
+    [WF_PRIMARIES_AP1] = {"AP1",
+                          "Academy S-2014-004 (ACEScg)",
+                          {0.713, 0.293},
+                          {0.165, 0.830},
+                          {0.128, 0.044},
+                          ACES_WHITE},
 };
 
 /* ---- Matrices ---- */

@@ -131,9 +131,14 @@ void wf_frames_line(const wf_frames *f, wf_finisher *finisher, int64_t field, in
         s->transform.apply(s->transform.self, rgb[0], rgb[1], rgb[2],
                            (size_t)f->job->raster.width_px);
     if (s->sink->layout != WF_LINEAR) {
+        wf_legal_counts legal = {0};
         wf_encoding encoding = s->encoding;
         encoding.line = line_in_frame(f, field, line);
+        encoding.legal = &legal;
         wf_encode_line(&encoding, rgb, finisher->code_scratch, code);
+        f->job->legal_pixels += legal.pixels;
+        f->job->legal_touched += legal.touched;
+        f->job->legal_outside += legal.outside;
     }
     finisher->color_s += wf_now_s() - start;
 }

@@ -78,7 +78,8 @@ struct weft_job {
     weft_warning_fn *warning;
     void *warning_user;
     volatile sig_atomic_t cancelled;
-    char *report; /* JSON of the last run */
+    _Atomic int64_t legal_pixels, legal_touched, legal_outside; /* of r103, in the last run */
+    char *report;                                               /* JSON of the last run */
 };
 
 /* "convert", "render", "trace". */

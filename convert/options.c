@@ -108,13 +108,18 @@ static const wf_option_row rows[] = {
     ROW(codes, "range", "narrow|full", "the output's",
         "Code range: narrow for video, full for R'G'B' pictures.", set_choice, AT(range),
         .base = WF_RANGE_NARROW),
-    ROW(codes, "chroma", "bt601|121|box|444", "bt601",
-        "How chroma is brought to 4:2:2; 444 leaves it whole.", set_choice, AT(chroma),
-        INITIAL),
+    ROW(codes, "chroma", "bt601|121|box|444|luma-adjust", "bt601",
+        "How chroma is brought to 4:2:2; 444 leaves it whole; luma-adjust is bt601 with luma "
+        "that "
+        "keeps the light of colored edges.",
+        set_choice, AT(chroma), INITIAL),
     ROW(codes, "dither", "none|tpdf", "none",
         "Whether to round with noise, so that gradients have no steps; it does not flicker.",
         set_choice, AT(dither), INITIAL),
-    ROW(codes, "legalize", "none|clip", "none", "Whether to hold codes within the legal range.",
+    ROW(codes, "legalize", "none|clip|r103", "none",
+        "Whether to hold codes within the legal range, or colors within EBU R 103, at their "
+        "hue "
+        "and luma.",
         set_choice, AT(legalize), INITIAL),
 
     ROW(files, "codec", "NAME", "the container's",

@@ -76,6 +76,11 @@ static void add_legal(wf_json *json, const wf_report_legal *legal) {
         wf_json_text(json, "range", legal->range);
         wf_json_int(json, "bits", legal->bits);
     }
+    if (legal->counts.pixels) {
+        double pixels = (double)legal->counts.pixels;
+        wf_json_real(json, "touched_share", (double)legal->counts.touched / pixels);
+        wf_json_real(json, "outside_share", (double)legal->counts.outside / pixels);
+    }
     wf_json_close(json);
 }
 

@@ -3,15 +3,19 @@
 
 #include <stddef.h>
 
+#include "color/encoder.h"
 #include "convert/json.h"
 #include "filters/raster.h"
 
-/* What is known of the legality of the codes written. */
+/* What is known of the legality of the codes written. Shares of the picture are of all pixels
+ * of all frames. */
 typedef struct wf_report_legal {
-    const char *legalize; /* "none", "clip"; NULL: nothing was quantised, "legal" is {} */
-    const char *dither;   /* "none", "tpdf" */
-    const char *range;    /* "narrow", "full" */
+    const char
+        *legalize;      /* "none", "clip", "r103"; NULL: nothing was quantised, "legal" is {} */
+    const char *dither; /* "none", "tpdf" */
+    const char *range;  /* "narrow", "full" */
     int bits;
+    wf_legal_counts counts; /* of r103; pixels 0: none were counted */
 } wf_report_legal;
 
 /* What a run has to tell (cli.md, Report). Everything is borrowed; NULL, 0 and {0} mean "not

@@ -156,6 +156,16 @@ typedef weft_status run_fn(weft_job *job, wf_report *report, weft_error *err);
 static run_fn *const runs[] = {
     [WF_CONVERT] = run_convert, [WF_RENDER] = wf_run_render, [WF_TRACE] = wf_run_trace};
 
+#define R103_SHARE 0.01 /* EBU R 103: what may be outside */
+
+static void tell_outside(const weft_job *job) {
+    double share = (double)job->legal_outside / (double)(job->legal_pixels + 1);
+    if (share <= R103_SHARE) return;
+    wf_job_warn(job,
+                "--legalize r103: %.2g %% of the picture is still outside, and 1 %% may be",
+                100 * share);
+}
+
 weft_status weft_job_run(weft_job *job, weft_error *err) {
     double start = wf_now_s();
     weft_error own;
@@ -163,7 +173,9 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     err->text[0] = '\0';
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
+    job->legal_pixels = job->legal_touched = job->legal_outside = 0;
     if (!status) status = runs[job->command](job, &report, err);
+    if (!status) tell_outside(job);
     report.wall_s = wf_now_s() - start;
     report.error = status ? err->text : NULL;
     free(job->report);

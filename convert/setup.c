@@ -270,6 +270,27 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
     return WEFT_OK;
 }
 
+/* What the picture is shown on, as far as its color space tells. */
+static weft_status make_display(const weft_job *job, wf_setup *s, weft_error *err) {
+    static const struct {
+        const char *space;
+        wf_transfer transfer;
+    } rows[] = {{"rec2100-pq", WF_TRANSFER_PQ}, {"rec2100-hlg", WF_TRANSFER_HLG}};
+    wf_primaries primaries = wf_colors_of(job->raster.matrix)->primaries;
+    wf_transfer transfer = WF_TRANSFER_BT1886;
+    if (job->chroma != WF_CHROMA_LUMA_ADJUST || s->sink->layout != WF_YCBCR) return WEFT_OK;
+    if (!s->display) s->display = malloc(sizeof *s->display);
+    if (!s->display) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a display's curve");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (strcmp(rows[i].space, s->color_space)) continue;
+        transfer = rows[i].transfer;
+        primaries = WF_PRIMARIES_2020;
+    }
+    wf_display_init(s->display, primaries, transfer);
+    s->encoding.display = s->display;
+    return WEFT_OK;
+}
+
 weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
     s->sink = wf_sink_for(job->output, job->codec, err);
     if (!s->sink) return WEFT_USAGE;
@@ -307,12 +328,13 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .bits = bits,
         .width_px = job->raster.width_px,
     };
-    return WEFT_OK;
+    return make_display(job, s, err);
 }
 
 weft_status wf_setup_output(weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = wf_setup_sink(job, s, err);
-    return status ? status : choose_color(job, s, err);
+    if (!status) status = choose_color(job, s, err);
+    return status ? status : make_display(job, s, err);
 }
 
 void wf_setup_count_frames(wf_setup *s) {
@@ -339,15 +361,19 @@ wf_gather_desc wf_setup_gather(const weft_job *job) {
 
 wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
     if (!s->sink || s->sink->layout == WF_LINEAR) return (wf_report_legal){0};
-    return (wf_report_legal){job->legalize == WF_LEGAL_CLIP ? "clip" : "none",
-                             job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
-                             s->sink_options.full_range ? "full" : "narrow",
-                             s->sink_options.bits};
+    static const char *const legalize[] = {"none", "clip", "r103"};
+    return (wf_report_legal){
+        .legalize = legalize[job->legalize],
+        .dither = job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
+        .range = s->sink_options.full_range ? "full" : "narrow",
+        .bits = s->sink_options.bits,
+        .counts = {job->legal_pixels, job->legal_touched, job->legal_outside}};
 }
 
 void wf_setup_free(wf_setup *s) {
     wf_sequence_free(&s->sequence);
     wf_resampler_free(s->resampler);
     if (s->transform.free) s->transform.free(s->transform.self);
+    free(s->display);
     *s = (wf_setup){0};
 }

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_SETUP_H
 #define WF_CONVERT_SETUP_H
 
+#include "color/display.h"
 #include "convert/job.h"
 #include "convert/sequence.h"
 #include "convert/report.h"
@@ -22,6 +23,7 @@ typedef struct wf_setup {
     char color_space[64];
     wf_transform transform; /* apply is NULL where colour is left alone */
     wf_encoding encoding;   /* where codes are written */
+    wf_display *display;    /* the encoding's, for luma-adjust; else NULL */
 } wf_setup;
 
 /* Reads the headers it has to and decides everything that can be decided before a pixel is

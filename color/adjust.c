@@ -1,0 +1,67 @@
+#include "color/adjust.h"
+
+#include <math.h>
+
+#include "color/chroma.h"
+#include "color/line.h"
+
+#define LEAST_LUMA (-1 / 16.0f)
+#define MOST_LUMA  1.09f
+#define NEAR       1e-6f /* of white: light that is as good as right */
+#define STEPS      24    /* at most; four do for most pixels */
+
+size_t wf_adjust_scratch(size_t width_px) {
+    return 2 * width_px;
+}
+
+typedef struct pixel {
+    const wf_display *display;
+    float difference[3]; /* R' - Y', G' - Y', B' - Y' */
+} pixel;
+
+static float luminance(const pixel *p, float y, float *slope) {
+    float light = 0;
+    *slope = 0;
+    for (int c = 0; c < 3; c++) {
+        float own;
+        light +=
+            p->display->weight[c] * wf_display_light(p->display, y + p->difference[c], &own);
+        *slope += p->display->weight[c] * own;
+    }
+    return light;
+}
+
+/* Newton's steps, kept between what is known to be too dark and too bright: luminance grows
+ * with luma, though it stands still where all colors are black. */
+static float solve(const pixel *p, float y, float want) {
+    float dark = LEAST_LUMA, bright = MOST_LUMA, slope;
+    if (y < dark || y > bright) y = 0.5f;
+    for (int n = 0; n < STEPS; n++) {
+        float error = luminance(p, y, &slope) - want;
+        if (fabsf(error) < NEAR) return y;
+        if (error > 0)
+            bright = y;
+        else
+            dark = y;
+        float next = slope > 0 ? y - error / slope : dark;
+        y = next > dark && next < bright ? next : 0.5f * (dark + bright);
+    }
+    return y;
+}
+
+void wf_adjust_luma(const wf_encoding *e, float *const ycbcr[3], const float *light,
+                    float *scratch) {
+    size_t width = (size_t)e->width_px;
+    float *cb = scratch, *cr = scratch + width, slope;
+    const wf_chroma_filter *half_band = wf_chroma_filter_of(WF_CHROMA_BT601);
+    wf_ycbcr w = wf_ycbcr_of(e->luma);
+    float kg = 1 - w.kr - w.kb;
+    wf_chroma_interpolate(half_band, ycbcr[1], width, cb);
+    wf_chroma_interpolate(half_band, ycbcr[2], width, cr);
+    for (size_t x = 0; x < width; x++) {
+        float red = cr[x] / w.cr_scale, blue = cb[x] / w.cb_scale;
+        const pixel p = {e->display, {red, -(w.kr * red + w.kb * blue) / kg, blue}};
+        float *y = &ycbcr[0][x];
+        if (fabsf(luminance(&p, *y, &slope) - light[x]) > NEAR) *y = solve(&p, *y, light[x]);
+    }
+}
