@@ -7,8 +7,9 @@
 
 #define LEAST_LUMA (-1 / 16.0f)
 #define MOST_LUMA  1.09f
-#define NEAR       1e-6f /* of white: light that is as good as right */
-#define STEPS      24    /* at most; four do for most pixels */
+#define KEPT       5e-5f /* of a signal: what no code shows */
+#define NEAR       1e-5f /* of white: light that is as good as right */
+#define STEPS      24    /* at most; three do for most pixels */
 
 size_t wf_adjust_scratch(size_t width_px) {
     return 2 * width_px;
@@ -49,19 +50,29 @@ static float solve(const pixel *p, float y, float want) {
     return y;
 }
 
-void wf_adjust_luma(const wf_encoding *e, float *const ycbcr[3], const float *light,
+static bool is_kept(const pixel *p, float y, const float rgb[3]) {
+    float off = 0;
+    for (int c = 0; c < 3; c++) off = fmaxf(off, fabsf(y + p->difference[c] - rgb[c]));
+    return off < KEPT;
+}
+
+void wf_adjust_luma(const wf_encoding *e, float *const ycbcr[3], const float *const rgb[3],
                     float *scratch) {
     size_t width = (size_t)e->width_px;
-    float *cb = scratch, *cr = scratch + width, slope;
+    float *cb = scratch, *cr = scratch + width;
     const wf_chroma_filter *half_band = wf_chroma_filter_of(WF_CHROMA_BT601);
     wf_ycbcr w = wf_ycbcr_of(e->luma);
     float kg = 1 - w.kr - w.kb;
     wf_chroma_interpolate(half_band, ycbcr[1], width, cb);
     wf_chroma_interpolate(half_band, ycbcr[2], width, cr);
     for (size_t x = 0; x < width; x++) {
-        float red = cr[x] / w.cr_scale, blue = cb[x] / w.cb_scale;
+        float red = cr[x] / w.cr_scale, blue = cb[x] / w.cb_scale, *y = &ycbcr[0][x];
+        const float was[3] = {rgb[0][x], rgb[1][x], rgb[2][x]};
+        const float *const one[3] = {&was[0], &was[1], &was[2]};
         const pixel p = {e->display, {red, -(w.kr * red + w.kb * blue) / kg, blue}};
-        float *y = &ycbcr[0][x];
-        if (fabsf(luminance(&p, *y, &slope) - light[x]) > NEAR) *y = solve(&p, *y, light[x]);
+        if (is_kept(&p, *y, was)) continue;
+        float light;
+        wf_display_luminance(e->display, one, &light, 1);
+        *y = solve(&p, *y, light);
     }
 }

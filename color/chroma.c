@@ -60,14 +60,6 @@ void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t widt
         for (size_t i = 0; i < count; i++) line[i] = 0.5f * even[i] + filter->pair[0] * odd[i];
 }
 
-/* The odd sample after half[i]: from inside the line, and near its edges. */
-static float between(const wf_chroma_filter *filter, const float *half, ptrdiff_t i) {
-    float sum = 0;
-    for (ptrdiff_t j = 0; j < (ptrdiff_t)filter->pairs; j++)
-        sum += filter->pair[j] * (half[i - j] + half[i + 1 + j]);
-    return 2 * sum;
-}
-
 static float between_at_edge(const wf_chroma_filter *filter, const float *half, ptrdiff_t i,
                              size_t width_px) {
     float sum = 0;
@@ -77,13 +69,23 @@ static float between_at_edge(const wf_chroma_filter *filter, const float *half, 
     return 2 * sum;
 }
 
+/* The samples between, in the second half of the line, from where they are dealt out. The inner
+ * loop of decimation adds half of a sample that is not among the taps here. */
 void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
                            float *line) {
     ptrdiff_t count = (ptrdiff_t)(width_px / 2), pairs = (ptrdiff_t)filter->pairs;
+    ptrdiff_t inner = count - 2 * pairs > 0 ? count - 2 * pairs : 0;
+    float *between = line + count;
+    for (ptrdiff_t i = 0; i < count; i++)
+        if (i < pairs || i >= pairs + inner)
+            between[i] = between_at_edge(filter, half, i, width_px);
+    if (inner)
+        wf_line_ops_best()->half_band(between + pairs, half + pairs, half + pairs + 1,
+                                      filter->pair, filter->pairs, (size_t)inner);
+    for (ptrdiff_t i = pairs; i < pairs + inner; i++) between[i] = 2 * between[i] - half[i];
     for (ptrdiff_t i = 0; i < count; i++) {
-        bool inside = i >= pairs && i + pairs < count;
+        float odd = between[i];
         line[2 * i] = half[i];
-        line[2 * i + 1] =
-            inside ? between(filter, half, i) : between_at_edge(filter, half, i, width_px);
+        line[2 * i + 1] = odd;
     }
 }

@@ -28,7 +28,7 @@ void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t widt
 
 /* The other way: a line of width_px samples from its width_px / 2 even ones, by the same taps
  * (a "standard upsampler"); even samples stay as they are. Outside, samples are reflected as
- * above. */
+ * above. line is not half. */
 void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
                            float *line);
 

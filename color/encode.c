@@ -1,6 +1,8 @@
 /* Display-encoded R'G'B' to code values. */
 #include "color/encoder.h"
 
+#include <string.h>
+
 #include "color/adjust.h"
 #include "color/chroma.h"
 #include "color/legal.h"
@@ -90,10 +92,10 @@ static void add_noise(const wf_encoding *e, int plane, double unit, float *signa
     }
 }
 
-/* Scratch of the parts of wf_encode_line, which take turns, behind the light that luma-adjust
- * aims at. */
-static size_t light_samples(const wf_encoding *e) {
-    return e->ycbcr && e->chroma == WF_CHROMA_LUMA_ADJUST ? (size_t)e->width_px : 0;
+/* Scratch of the parts of wf_encode_line, which take turns, behind the line as it was, which
+ * luma-adjust aims at. */
+static size_t kept_samples(const wf_encoding *e) {
+    return e->ycbcr && e->chroma == WF_CHROMA_LUMA_ADJUST ? 3 * (size_t)e->width_px : 0;
 }
 
 static size_t larger(size_t a, size_t b) {
@@ -101,25 +103,27 @@ static size_t larger(size_t a, size_t b) {
 }
 
 size_t wf_encode_scratch(const wf_encoding *encoding) {
-    size_t width = (size_t)encoding->width_px, light = light_samples(encoding);
+    size_t width = (size_t)encoding->width_px, kept = kept_samples(encoding);
     size_t most = filter_of(encoding) ? wf_chroma_scratch(width) : 0;
-    if (light) most = larger(most, wf_adjust_scratch(width));
+    if (kept) most = larger(most, wf_adjust_scratch(width));
     if (encoding->legalize == WF_LEGAL_R103) most = larger(most, wf_legal_scratch(width));
-    return light + most;
+    return kept + most;
 }
 
 /* R'G'B' to Y'CbCr, in place. */
 static void make_ycbcr(const wf_encoding *e, float *const rgb[3], float *scratch) {
     const wf_line_ops *ops = wf_line_ops_best();
     const wf_chroma_filter *filter = filter_of(e);
-    size_t width = (size_t)e->width_px, light = light_samples(e);
-    const float *const before[3] = {rgb[0], rgb[1], rgb[2]};
+    size_t width = (size_t)e->width_px, kept = kept_samples(e);
+    float *const was[3] = {scratch, scratch + width, scratch + 2 * width};
     wf_ycbcr weights = wf_ycbcr_of(e->luma);
-    if (light) wf_display_luminance(e->display, before, scratch, width);
+    for (int c = 0; kept && c < 3; c++) memcpy(was[c], rgb[c], width * sizeof(float));
     ops->ycbcr(&weights, rgb[0], rgb[1], rgb[2], width);
     for (int c = 1; filter && c < 3; c++)
-        wf_chroma_decimate(filter, rgb[c], width, scratch + light);
-    if (light) wf_adjust_luma(e, rgb, scratch, scratch + light);
+        wf_chroma_decimate(filter, rgb[c], width, scratch + kept);
+    if (!kept) return;
+    const float *const aim[3] = {was[0], was[1], was[2]};
+    wf_adjust_luma(e, rgb, aim, scratch + kept);
 }
 
 static void legalize(const wf_encoding *e, float *const plane[3], float *scratch) {

@@ -117,21 +117,32 @@ static void spread(const wf_encoding *e, float *const ycbcr[3], float *chroma[2]
             wf_chroma_interpolate(half_band, ycbcr[1 + p], width, chroma[p]);
 }
 
-/* Factors of all pixels; false where every one may stay as it is, but for half of the slack,
- * without which the last rounds would be endless. */
+static int is_beyond(float v, float low, float high) {
+    return (v < low) | (v > high);
+}
+
+/* Pixels of the line that are outside, but for half of the slack, without which the last rounds
+ * would be endless. */
+static int count_beyond(const limits *l, const float *y, float *const chroma[2], size_t width) {
+    float low = l->low - 0.5f * l->slack, high = l->high + 0.5f * l->slack;
+    int count = 0;
+    for (size_t x = 0; x < width; x++) {
+        float red = chroma[1][x] * l->red, blue = chroma[0][x] * l->blue;
+        float green = l->green_red * red + l->green_blue * blue;
+        count += is_beyond(y[x] + red, low, high) | is_beyond(y[x] + green, low, high) |
+                 is_beyond(y[x] + blue, low, high);
+    }
+    return count;
+}
+
+/* Factors of all pixels; false where every one may stay as it is. */
 static bool find_factors(const wf_encoding *e, const limits *l, float *const ycbcr[3],
                          line_room *room) {
     size_t width = (size_t)e->width_px;
-    const float *cb = room->chroma[0], *cr = room->chroma[1];
-    float least_of_all = 1;
-    limits inner = *l;
     spread(e, ycbcr, room->chroma);
-    inner.low -= 0.5f * l->slack;
-    inner.high += 0.5f * l->slack;
+    if (!count_beyond(l, ycbcr[0], room->chroma, width)) return false;
     for (size_t x = 0; x < width; x++)
-        least_of_all = least(least_of_all, factor(&inner, ycbcr[0][x], cb[x], cr[x]));
-    if (least_of_all >= 1) return false;
-    for (size_t x = 0; x < width; x++) room->factors[x] = factor(l, ycbcr[0][x], cb[x], cr[x]);
+        room->factors[x] = factor(l, ycbcr[0][x], room->chroma[0][x], room->chroma[1][x]);
     return true;
 }
 
@@ -235,12 +246,6 @@ void wf_legal_rgb(const wf_encoding *e, float *const rgb[3]) {
 
 /* ---- What is left ---- */
 
-static bool beyond(float v, const wf_encoding *e) {
-    bool whole = e->full_range && !e->ycbcr;
-    float low = whole ? 0 : (float)WF_R103_LOW, high = whole ? 1 : (float)WF_R103_HIGH;
-    return v < low - ROUNDING || v > high + ROUNDING;
-}
-
 /* Y' lies between the least and the most of R', G' and B': it need not be looked at. */
 void wf_legal_count(const wf_encoding *e, uint16_t *const code[3], float *scratch) {
     size_t width = (size_t)e->width_px;
@@ -248,7 +253,10 @@ void wf_legal_count(const wf_encoding *e, uint16_t *const code[3], float *scratc
     float *decoded[3] = {room.factors, room.eroded, room.luma};
     float *spread_out[3] = {decoded[0], room.chroma[0], room.chroma[1]};
     float **rgb = e->ycbcr ? spread_out : decoded;
-    bool halved = e->ycbcr && e->chroma != WF_CHROMA_444;
+    bool halved = e->ycbcr && e->chroma != WF_CHROMA_444, whole = e->full_range && !e->ycbcr;
+    float low = (whole ? 0 : (float)WF_R103_LOW) - ROUNDING;
+    float high = (whole ? 1 : (float)WF_R103_HIGH) + ROUNDING;
+    int count = 0;
     for (int p = 0; p < 3; p++)
         wf_decode_line(e, p, code[p], decoded[p], p && halved ? width / 2 : width);
     if (e->ycbcr) {
@@ -256,6 +264,7 @@ void wf_legal_count(const wf_encoding *e, uint16_t *const code[3], float *scratc
         wf_rgb_of_ycbcr(e->luma, rgb[0], rgb[1], rgb[2], width);
     }
     for (size_t x = 0; x < width; x++)
-        e->legal->outside +=
-            beyond(rgb[0][x], e) || beyond(rgb[1][x], e) || beyond(rgb[2][x], e);
+        count += is_beyond(rgb[0][x], low, high) | is_beyond(rgb[1][x], low, high) |
+                 is_beyond(rgb[2][x], low, high);
+    e->legal->outside += count;
 }
