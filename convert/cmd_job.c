@@ -171,12 +171,14 @@ static const char notes[] =
     "raster", "aperture", "temporal-width", "shutter-angle", "shutter-position", "scan-skew",  \
         "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
         "chroma", "legalize", "dither", "codec", "audio"
+#define FIELDS  "cadence"
 #define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume"
 #define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
 
 static const char *const convert_takes[] = {
-    OUTPUT_SIDE, "fit",  "input-par",  "background", "subframe-rate", "subframe-time", "frames",
-    "layer",     "part", "on-missing", "fix-nan",    "on-empty",      RUNNING,         NULL};
+    OUTPUT_SIDE,     FIELDS,          "fit",      "input-par", "background",
+    "subframe-rate", "subframe-time", "frames",   "layer",     "part",
+    "on-missing",    "fix-nan",       "on-empty", RUNNING,     NULL};
 
 const wf_cmd wf_cmd_convert = {
     .name = "convert",
@@ -210,8 +212,8 @@ const wf_cmd wf_cmd_convert = {
 
 /* ---- weft render ---- */
 
-static const char *const render_takes[] = {OUTPUT_SIDE, "frames", SCENE,
-                                           "error",     RUNNING,  NULL};
+static const char *const render_takes[] = {OUTPUT_SIDE, FIELDS,  "frames", SCENE,
+                                           "error",     RUNNING, NULL};
 
 const wf_cmd wf_cmd_render = {
     .name = "render",

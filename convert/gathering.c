@@ -247,7 +247,7 @@ static void add_taker(wf_gathering *g, int64_t unit, int64_t field, int64_t shif
  * see it so, now or one field later. */
 static void find_takers(wf_gathering *g, int64_t unit) {
     int64_t last, first = g->flight_first, end = first + g->flight_count;
-    bool interlaced = g->job->raster.scan == WF_INTERLACED;
+    bool interlaced = g->job->raster.scan == WF_INTERLACED && !g->job->raster.pulldown;
     while (g->keeps && needs(g, first - 1, unit, &last)) first--;
     while (g->keeps && needs(g, end, unit, &last)) end++;
     g->taker_count = 0;

@@ -102,6 +102,24 @@ static weft_status check_timecode(const weft_job *job, weft_error *err) {
                    job->raster.name);
 }
 
+/* Film is brought to 60 fields a second, one film frame seen at one time by all its fields. */
+static weft_status check_cadence(const weft_job *job, weft_error *err) {
+    if (job->cadence == WF_CADENCE_NONE) return WEFT_OK;
+    if (job->command == WF_TRACE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--cadence is for fields, and trace stores samples; give it to convert");
+    if (wf_ratio_given(wf_raster_film_rate(&job->raster))) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--cadence 2:3 makes 60000/1001 or 60 fields (or progressive frames) a "
+                   "second of film, and %s has another rate or scan; take 525i, 1080i59.94, "
+                   "1080i60 or 720p59.94",
+                   job->raster.name);
+}
+
+void wf_job_settle(weft_job *job) {
+    job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
+}
+
 weft_status wf_job_check(const weft_job *job, weft_error *err) {
     const struct {
         bool wrong;
@@ -134,5 +152,6 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (rules[i].wrong) return wf_fail(err, WEFT_USAGE, "%s", rules[i].says);
-    return check_timecode(job, err);
+    weft_status status = check_cadence(job, err);
+    return status ? status : check_timecode(job, err);
 }

@@ -19,6 +19,8 @@ typedef enum wf_on_missing {
 typedef enum wf_on_empty { WF_EMPTY_ERROR, WF_EMPTY_NEAREST } wf_on_empty;
 typedef enum wf_code_range { WF_RANGE_UNSET, WF_RANGE_NARROW, WF_RANGE_FULL } wf_code_range;
 
+typedef enum wf_cadence { WF_CADENCE_NONE, WF_CADENCE_2_3 } wf_cadence;
+
 typedef enum wf_command { WF_CONVERT, WF_RENDER, WF_TRACE } wf_command;
 
 /* Everything a conversion was asked for; convert/options.c fills it, one table row an option.
@@ -35,6 +37,7 @@ struct weft_job {
     bool width_given, angle_given; /* which of the two options that set it were */
     wf_position shutter_position;
     wf_rational scan_skew;
+    wf_cadence cadence;
 
     char *frames;              /* range of the selection; NULL: all */
     wf_rational subframe_rate; /* {0,0}: from the files */
@@ -95,5 +98,9 @@ weft_status wf_job_preset(weft_job *job, weft_error *err);
 /* Contradictions between options that can be seen without opening a file: what weft_job_run
  * looks at first. Options may be set in any order. */
 weft_status wf_job_check(const weft_job *job, weft_error *err);
+
+/* What only shows when all options are known, of a job that wf_job_check passes: the raster
+ * takes on the cadence. */
+void wf_job_settle(weft_job *job);
 
 #endif

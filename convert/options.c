@@ -45,6 +45,10 @@ static const wf_option_row rows[] = {
     ROW(timing, "scan-skew", "S", "0",
         "How much later the last line looks, in field periods: 1 is a tube camera.", set_ratio,
         AT(scan_skew), FROM(0, 1, ", such as 1 or 0.5"), INITIAL),
+    ROW(timing, "cadence", "none|2:3", "none",
+        "2:3 shows film, 24 frames a second, in 60 fields: each film frame is seen once, and a "
+        "period is a film frame's.",
+        set_choice, AT(cadence), INITIAL),
     ROW(timing, "subframe-rate", "R", "from the files",
         "Subframes a second, of those that are selected.", set_rate, AT(subframe_rate),
         FROM(0.001, 1e6, " (a second), such as 240 or 480000/1001")),

@@ -51,8 +51,9 @@ static void choose_groups(wf_pipeline *p) {
     size_t each = wf_resampler_field_bytes(s->resampler, false);
     size_t group = (allowed < GROUP_BYTES ? allowed : GROUP_BYTES) / each;
     p->group_most = group > MOST_IN_GROUP ? MOST_IN_GROUP : (int)group;
-    /* The two fields of a segmented frame see the same subframes. */
-    int fewest = p->job->raster.scan == WF_SEGMENTED ? 2 : 1;
+    /* The two fields of a segmented frame see the same subframes, and the three of film. */
+    const wf_raster *raster = &p->job->raster;
+    int fewest = raster->pulldown ? 3 : raster->scan == WF_SEGMENTED ? 2 : 1;
     if (p->group_most < fewest) p->group_most = fewest;
     int64_t overlap = overlap_of(s, 0, s->end_field);
     size_t carried = wf_resampler_field_bytes(s->resampler, true);

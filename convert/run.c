@@ -140,7 +140,13 @@ static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, 
 static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
     wf_setup setup = {0};
     wf_pipeline *pipeline = NULL;
-    if (wf_takes_samples(job)) return wf_run_samples(job, report, err);
+    if (wf_takes_samples(job)) {
+        if (job->cadence == WF_CADENCE_NONE) return wf_run_samples(job, report, err);
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: --cadence is for subframes and scenes, not for sample buffers, "
+                       "whose times count fields",
+                       job->inputs[0]);
+    }
     weft_status status = wf_setup_make(job, &setup, err);
     if (!status) status = run_setup(job, &setup, &pipeline, &report->degraded, err);
     tell(job, &setup, pipeline, report);
@@ -174,6 +180,7 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
     job->legal_pixels = job->legal_touched = job->legal_outside = 0;
+    if (!status) wf_job_settle(job);
     if (!status) status = runs[job->command](job, &report, err);
     if (!status) tell_outside(job);
     report.wall_s = wf_now_s() - start;

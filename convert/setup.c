@@ -57,6 +57,32 @@ static weft_status settle_rate(const weft_job *job, const wf_setup *s, wf_ration
                    job->inputs[0]);
 }
 
+static bool is_whole(wf_rational r) {
+    return wf_ratio_given(r) && r.den == 1;
+}
+
+/* Film that was rendered at 24 runs at 24000/1001 in 59.94 fields, and the other way round: a
+ * tenth of a percent slower, with no frame lost. */
+static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_error *err) {
+    wf_rational film = wf_raster_film_rate(&job->raster), given = *rate;
+    const wf_rational speeds[] = {{1, 1}, {1000, 1001}, {1001, 1000}};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
+        *rate = wf_ratio_mul(given, speeds[i]);
+        if (!is_whole(wf_ratio_div(*rate, film))) continue;
+        if (i)
+            wf_job_warn(job,
+                        "%" PRId64 "/%" PRId64 " subframes a second run at %" PRId64 "/%" PRId64
+                        ", since %s shows film at %" PRId64 "/%" PRId64 " frames a second",
+                        given.num, given.den, rate->num, rate->den, job->raster.name, film.num,
+                        film.den);
+        return WEFT_OK;
+    }
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: --cadence 2:3 takes film, 24 or 23.976 frames a second of one subframe "
+                   "or more, such as 192, and not %" PRId64 "/%" PRId64 " subframes a second",
+                   job->inputs[0], given.num, given.den);
+}
+
 /* ---- Geometry ---- */
 
 /* The simplest ratio within float32's accuracy of value: files hold 10:11 as 0.909090936. */
@@ -134,6 +160,7 @@ static void choose_bands(const wf_setup *s, wf_resample_desc *desc) {
 static weft_status make_resampler(weft_job *job, wf_setup *s, weft_error *err) {
     wf_rational rate = {0, 0};
     weft_status status = settle_rate(job, s, &rate, err);
+    if (!status && job->raster.pulldown) status = settle_film(job, &rate, err);
     if (status) return status;
     wf_resample_desc desc = {
         .raster = &job->raster,

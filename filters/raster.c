@@ -248,9 +248,18 @@ int wf_raster_fields_per_frame(const wf_raster *raster) {
     return raster->scan == WF_PROGRESSIVE ? 1 : 2;
 }
 
+static int64_t floor_div(int64_t a, int64_t b) {
+    return a / b - (a % b < 0);
+}
+
 int64_t wf_raster_instant(const wf_raster *raster, int64_t field) {
-    if (raster->scan != WF_SEGMENTED) return field;
-    return (field - (field % 2 != 0 && field < 0)) / 2;
+    if (raster->pulldown) return floor_div(2 * field + 1, 5);
+    return raster->scan == WF_SEGMENTED ? floor_div(field, 2) : field;
+}
+
+int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant) {
+    if (raster->pulldown) return floor_div(5 * instant, 2);
+    return raster->scan == WF_SEGMENTED ? 2 * instant : instant;
 }
 
 int wf_raster_parity(const wf_raster *raster, int64_t field) {
@@ -267,7 +276,16 @@ int wf_raster_field_lines(const wf_raster *raster, int parity) {
     return (raster->lines - parity + step - 1) / step;
 }
 
+wf_rational wf_raster_film_rate(const wf_raster *raster) {
+    wf_rational fields =
+        wf_ratio_mul(raster->frame_rate, wf_ratio(wf_raster_fields_per_frame(raster), 1));
+    bool has = raster->scan != WF_SEGMENTED && (wf_ratio_equal(fields, wf_ratio(60, 1)) ||
+                                                wf_ratio_equal(fields, wf_ratio(60000, 1001)));
+    return has ? wf_ratio_mul(fields, wf_ratio(2, 5)) : (wf_rational){0, 0};
+}
+
 wf_rational wf_raster_field_period(const wf_raster *raster) {
+    if (raster->pulldown) return wf_ratio_div(wf_ratio(1, 1), wf_raster_film_rate(raster));
     int64_t fields = raster->scan == WF_INTERLACED ? 2 : 1;
     return wf_ratio_div(wf_ratio(1, fields), raster->frame_rate);
 }

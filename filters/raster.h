@@ -22,6 +22,9 @@ typedef struct wf_raster {
     wf_matrix matrix;
     /* First picture lines of fields 1 and 2, and all lines; 0 where there is no map. */
     int line1, line2, total_lines;
+    /* Fields (progressive: frames) show film, 2 of them for each 5 in the order 2:3:2:3, so that
+     * frames are AA BB BC CD DD. Never set by wf_raster_parse; not for segmented frames. */
+    bool pulldown;
 } wf_raster;
 
 /* The named rasters, by index; NULL past the end. Static storage. */
@@ -43,8 +46,14 @@ const char *wf_raster_order(const wf_raster *raster);
 bool wf_raster_map_top_first(int line1, int line2, int total_lines);
 bool wf_raster_map_valid(int line1, int line2, int total_lines);
 
-/* The instant of a field, counted in instants: both fields of a segmented frame have one. */
+/* The instant of a field, counted in instants: both fields of a segmented frame have one, and
+ * all fields of a film frame under pulldown; and the first field that has an instant. */
 int64_t wf_raster_instant(const wf_raster *raster, int64_t field);
+int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant);
+
+/* Film frames a second that 2:3 pulldown takes: 24 from 60 fields, 24000/1001 from 60000/1001;
+ * {0, 0} for rasters that have no such pulldown. */
+wf_rational wf_raster_film_rate(const wf_raster *raster);
 
 /* Field n of the raster: its parity (0: it owns the top lines j = 0, 2, ..; 1: j = 1, 3, ..;
  * progressive rasters: always 0), the distance between its lines (2, or 1) and their number. */
@@ -53,7 +62,8 @@ int wf_raster_line_step(const wf_raster *raster);
 int wf_raster_field_lines(const wf_raster *raster, int parity);
 int wf_raster_fields_per_frame(const wf_raster *raster); /* 1 or 2 */
 
-/* Field period Tf in seconds (resampling.md, Time). */
+/* Field period Tf in seconds (resampling.md, Time): from one instant to the next. That of
+ * segmented frames is a frame's, that of pulldown a film frame's. */
 wf_rational wf_raster_field_period(const wf_raster *raster);
 
 #endif

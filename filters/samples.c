@@ -35,9 +35,8 @@ void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double 
     double middle = middle_of(d), half = half_window(d);
     double low = ceil(t0 - middle - half - skew_of(d)), high = floor(t1 - middle + half);
     int64_t base = wf_raster_instant(d->raster, field);
-    int64_t per = d->raster->scan == WF_SEGMENTED ? 2 : 1;
-    *first = (base + (int64_t)low) * per;
-    *last = (base + (int64_t)high) * per + per - 1;
+    *first = wf_raster_first_field(d->raster, base + (int64_t)low);
+    *last = wf_raster_first_field(d->raster, base + (int64_t)high + 1) - 1;
     if (*first < 0) *first = 0;
 }
 

@@ -45,7 +45,7 @@ bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, si
         .opens = opens[desc->position],
         .skew_line = scaled(desc->skew, rate) / lines,
         .subframes = desc->subframes,
-        .shared_instants = desc->raster->scan == WF_SEGMENTED,
+        .raster = desc->raster,
     };
     return true;
 }
@@ -56,8 +56,7 @@ int64_t wf_timing_frames(const wf_timing_desc *desc) {
 }
 
 static wf_ticks window_start(const wf_timing *t, int64_t field, int line) {
-    int64_t instant = t->shared_instants ? field / 2 : field;
-    return instant * t->tick_rate + t->opens + line * t->skew_line;
+    return wf_raster_instant(t->raster, field) * t->tick_rate + t->opens + line * t->skew_line;
 }
 
 wf_window wf_timing_window(const wf_timing *t, int64_t field, int line) {

@@ -15,7 +15,7 @@ typedef struct wf_timing_desc {
     wf_rational subframe_rate; /* of the selected subframes, a second */
     bool subframe_center;      /* cells lie about k/R instead of after it */
     int64_t subframes;         /* in the sequence, missing ones included */
-    wf_rational width;         /* tau, field periods */
+    wf_rational width;         /* tau, field periods; under pulldown film frames */
     wf_position position;
     wf_rational skew; /* 0..1 */
 } wf_timing_desc;
@@ -29,7 +29,7 @@ typedef struct wf_timing {
     wf_ticks width, opens; /* the window, and where it opens from the field's instant */
     wf_ticks skew_line;    /* delay of one frame line */
     int64_t subframes;
-    bool shared_instants; /* psf: fields 2m and 2m + 1 */
+    const wf_raster *raster; /* the description's: which fields share an instant */
 } wf_timing;
 
 /* Subframes first <= k < first + count that a window meets. Never empty: a window that meets

@@ -97,10 +97,6 @@ wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *c) {
 
 /* ---- Units of time ---- */
 
-static int64_t field_of(const wf_sampling *s, int64_t instant) {
-    return s->raster.scan == WF_SEGMENTED ? 2 * instant : instant;
-}
-
 /* Periods begin at the instants of fields, wherever windows lie about them. */
 void wf_sampling_units(const wf_sampling *s, int64_t field, int64_t *first, int64_t *last) {
     int64_t instant = wf_raster_instant(&s->raster, field);
@@ -119,7 +115,7 @@ bool wf_sampling_look(wf_sampling *s, wf_sampling_scratch *c, int64_t unit) {
                                       .late_s =
                                           s->periods ? 0 : s->skew * wf_ratio_value(period)};
     s->unit = unit;
-    s->field = field_of(s, unit);
+    s->field = wf_raster_first_field(&s->raster, unit);
     s->start = s->periods ? 0 : -s->anchor * s->tau;
     if (!wf_tracer_look(s->tracer, &window, s->desc.skip)) return false;
     const double x[2] = {0, s->raster.width_px}, y[2] = {0, s->raster.lines};
@@ -141,9 +137,11 @@ bool wf_sampling_whole(const wf_sampling *s, int64_t field, int64_t unit) {
 
 /* ---- Rows ---- */
 
-/* Fields that see the unit's first instant: both of a segmented frame. */
+/* Fields that see the unit's first instant: both of a segmented frame, and those of film, of
+ * whose three the last sees what the first does. */
 static int fields_of_unit(const wf_sampling *s) {
-    return s->raster.scan == WF_SEGMENTED ? 2 : 1;
+    bool shared = s->raster.scan == WF_SEGMENTED || s->raster.pulldown;
+    return shared ? wf_raster_fields_per_frame(&s->raster) : 1;
 }
 
 /* Whether a sample at y, q from a window's middle is within an aperture of any line of a field.
