@@ -171,7 +171,7 @@ static const char notes[] =
     "raster", "aperture", "temporal-width", "shutter-angle", "shutter-position", "scan-skew",  \
         "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
         "chroma", "legalize", "dither", "codec", "audio"
-#define FIELDS  "cadence"
+#define FIELDS  "cadence", "fields"
 #define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume"
 #define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
 

@@ -44,7 +44,8 @@ static weft_status check_outputs(const weft_job *job, const wf_setup *s, const i
     if (!wf_sequence_is_pattern(job->output)) return check(job->output, inputs, count, err);
     weft_status status = WEFT_OK;
     char path[4096];
-    for (int64_t n = s->first_frame; n < s->end_frame && !status; n++)
+    int files = wf_sink_files(&s->sink_options);
+    for (int64_t n = s->first_frame * files; n < s->end_frame * files && !status; n++)
         if (wf_sequence_output_path(job->output, n, path, sizeof path))
             status = check(path, inputs, count, err);
     return status;

@@ -65,6 +65,7 @@ struct weft_job {
     size_t param_count;
     wf_on_empty on_empty;
 
+    bool separate_fields; /* of image sequences: a file each */
     char *timecode;
     char *codec;       /* NULL: the container's default */
     int silent_tracks; /* of sound, in containers */

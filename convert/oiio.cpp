@@ -195,8 +195,8 @@ void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) 
              channels.c_str(), spec.format.is_floating_point() ? "float" : "uint", bits);
 }
 
-// weft:raster where the format has room for it; else the words that weft's own writer begins the
-// description with.
+// weft:raster where the format has room for it; else the words that weft's own writer begins
+// the description with.
 void read_raster(const ImageSpec &spec, wf_image_info *info) {
     const std::string words = spec.get_string_attribute("ImageDescription");
     const std::string name =
@@ -335,12 +335,17 @@ const char *dpx_characteristic(const std::string &space) {
 }
 
 const char *order_name(const wf_oiio_picture &p) {
+    if (p.field == 1) return p.top_lines ? "top field 1" : "bottom field 1";
+    if (p.field == 2) return p.top_lines ? "top field 2" : "bottom field 2";
     return !p.interlaced ? "progressive" : p.top_first ? "top first" : "bottom first";
 }
 
+// Both fields of a frame have its label, told apart by the field mark: just what ST 12-1 does
+// with pairs of progressive frames.
 void describe_time(const wf_oiio_picture &p, ImageSpec &spec) {
     wf_timecode label;
     if (!wf_parse_timecode(p.timecode, &label)) return;
+    if (p.field) label.frames = 2 * label.frames + p.field - 1;
     const unsigned words[2] = {wf_timecode_bcd(&label, p.frame_rate), 0}; // and no user bits
     spec.attribute("smpte:TimeCode", TypeTimeCode, words);
 }
@@ -359,11 +364,13 @@ void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
     add_ratio(spec, "weft:time", p.time_s);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
+    if (p.field) spec.attribute("weft:field", p.field);
     describe_time(p, spec);
 }
 
 // ST 268 has two elements for fields. Where both are woven into one picture, the field number
-// here is that of the field which owns the top line: 1 is top first, 2 bottom first.
+// here is that of the field which owns the top line: 1 is top first, 2 bottom first. A lone
+// field has its own number.
 void describe_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
     const float rate = float(wf_ratio_value(p.frame_rate));
     const char *label = dpx_characteristic(p.color_space);
@@ -372,7 +379,7 @@ void describe_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("dpx:FrameRate", rate);
     spec.attribute("dpx:TemporalFrameRate", rate);
     spec.attribute("dpx:Interlace", int(p.interlaced));
-    spec.attribute("dpx:FieldNumber", p.interlaced && !p.top_first ? 2 : 1);
+    spec.attribute("dpx:FieldNumber", p.field ? p.field : p.interlaced && !p.top_first ? 2 : 1);
     spec.attribute("dpx:Transfer", label);
     spec.attribute("dpx:Colorimetric", label);
     describe_time(p, spec);
@@ -395,6 +402,7 @@ void describe_png(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("png:compressionLevel", 4);
     spec.attribute("weft:raster", p.raster);
     spec.attribute("weft:timecode", p.timecode);
+    if (p.field) spec.attribute("weft:field", std::to_string(p.field));
     describe_density(p, spec);
 }
 
@@ -415,9 +423,9 @@ ImageSpec spec_of(const wf_oiio_picture &p) {
     spec.attribute("DateTime", ""); // or the writer's clock: equal frames are to be equal files
     spec.attribute("Orientation", 1);
     spec.attribute("PixelAspectRatio", float(p.pixel_aspect));
-    // DPX has room for 31 characters.
+    const std::string order = order_name(p); // DPX has room for 31 characters
     spec.attribute("ImageDescription",
-                   std::string(p.raster).substr(0, 17) + ", " + order_name(p));
+                   std::string(p.raster).substr(0, 29 - order.size()) + ", " + order);
     for (const auto &row : writers)
         if (!std::strcmp(row.format, p.format)) row.describe(p, spec);
     return spec;

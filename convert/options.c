@@ -132,6 +132,10 @@ static const wf_option_row rows[] = {
         set_text, AT(codec)),
     ROW(files, "audio", "none|silent:N", "none",
         "Silent tracks of sound in .mov, .mxf and .mkv: 24 bits, 48 kHz.", set_audio, INITIAL),
+    ROW(files, "fields", "woven|separate", "woven",
+        "Image sequences: both fields in one file, or each in a file of half the height, two "
+        "numbers a frame in order of time.",
+        set_switch, AT(separate_fields), INITIAL),
 
     ROW(running, "chunk", "I/N", "1/1",
         "Make only the I-th of N runs of frames; all of them joined are the whole.", set_chunk,

@@ -70,13 +70,18 @@ static weft_status face_missing(weft_job *job, const wf_setup *s, bool *degraded
 
 /* ---- Running ---- */
 
+static bool is_there(const weft_job *job, const wf_setup *s, int64_t frame) {
+    int files = wf_sink_files(&s->sink_options);
+    for (int n = 0; n < files; n++)
+        if (!wf_sink_present(s->sink, job->output, frame * files + n)) return false;
+    return true;
+}
+
 bool wf_next_frames(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
     bool leave_out = job->resume && s->sink->sequence;
-    while (leave_out && *first < s->end_frame && wf_sink_present(s->sink, job->output, *first))
-        ++*first;
+    while (leave_out && *first < s->end_frame && is_there(job, s, *first)) ++*first;
     *end = leave_out && *first < s->end_frame ? *first + 1 : s->end_frame;
-    while (leave_out && *end < s->end_frame && !wf_sink_present(s->sink, job->output, *end))
-        ++*end;
+    while (leave_out && *end < s->end_frame && !is_there(job, s, *end)) ++*end;
     return *first < s->end_frame;
 }
 

@@ -57,6 +57,12 @@ static weft_status settle_rate(const weft_job *job, const wf_setup *s, wf_ration
                    job->inputs[0]);
 }
 
+static const char *rate_text(wf_rational rate, char text[48]) {
+    int used = snprintf(text, 48, "%" PRId64, rate.num);
+    if (rate.den != 1) snprintf(text + used, 48 - (size_t)used, "/%" PRId64, rate.den);
+    return text;
+}
+
 static bool is_whole(wf_rational r) {
     return wf_ratio_given(r) && r.den == 1;
 }
@@ -70,17 +76,17 @@ static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_erro
         *rate = wf_ratio_mul(given, speeds[i]);
         if (!is_whole(wf_ratio_div(*rate, film))) continue;
         if (i)
-            wf_job_warn(job,
-                        "%" PRId64 "/%" PRId64 " subframes a second run at %" PRId64 "/%" PRId64
-                        ", since %s shows film at %" PRId64 "/%" PRId64 " frames a second",
-                        given.num, given.den, rate->num, rate->den, job->raster.name, film.num,
-                        film.den);
+            wf_job_warn(
+                job,
+                "%s subframes a second run at %s, since %s shows film at %s frames a second",
+                rate_text(given, (char[48]){0}), rate_text(*rate, (char[48]){0}),
+                job->raster.name, rate_text(film, (char[48]){0}));
         return WEFT_OK;
     }
     return wf_fail(err, WEFT_USAGE,
                    "%s: --cadence 2:3 takes film, 24 or 23.976 frames a second of one subframe "
-                   "or more, such as 192, and not %" PRId64 "/%" PRId64 " subframes a second",
-                   job->inputs[0], given.num, given.den);
+                   "or more, such as 192, and not %s subframes a second",
+                   job->inputs[0], rate_text(given, (char[48]){0}));
 }
 
 /* ---- Geometry ---- */
@@ -289,6 +295,15 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
         return wf_fail(err, WEFT_USAGE,
                        "%s: %s has no sound; --audio is for .mov, .mxf and .mkv", job->output,
                        sink->name);
+    if (job->separate_fields && !sink->sequence)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: %s holds frames; --fields separate is for image sequences, such as "
+                       "out.####.dpx",
+                       job->output, sink->name);
+    if (job->separate_fields && job->raster.scan == WF_PROGRESSIVE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--fields separate: %s is progressive and has no fields; leave it out",
+                       job->raster.name);
     if (job->chunk_count > 1 && !sink->joins)
         return wf_fail(err, WEFT_USAGE,
                        "%s: chunks of %s cannot be joined; write an image sequence, "
@@ -333,6 +348,7 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .bits = s->sink->layout == WF_LINEAR ? 32 : bits,
         .full_range = full,
         .subsampled = s->sink->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
+        .separate_fields = job->separate_fields,
         .stream_header = job->chunk == 1,
         .timecode = job->timecode,
         .color_space = s->color_space,

@@ -94,6 +94,10 @@ const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_erro
 
 /* ---- What is there ---- */
 
+int wf_sink_files(const wf_sink_options *options) {
+    return options->separate_fields ? 2 : 1;
+}
+
 bool wf_sink_present(const wf_sink_kind *kind, const char *output, int64_t frame) {
     char path[PATH_MAX];
     struct stat about;

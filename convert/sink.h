@@ -16,6 +16,7 @@ typedef struct wf_sink_options {
     bool subsampled;     /* 4:2:2; false: 4:4:4 */
     int64_t first_frame; /* of this chunk of the run */
     int64_t frame_count;
+    bool separate_fields;      /* sequences: a file a field */
     bool stream_header;        /* false: a later chunk, to be joined by cat */
     const char *timecode;      /* of frame 0; validated */
     const char *color_space;   /* what the codes are in, for metadata; "" if unknown */
@@ -64,7 +65,11 @@ const wf_sink_kind *wf_sink_at(size_t index);
  * NULL with an error that lists what there is. */
 const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_error *err);
 
-/* Whether frame is already there, whole (sequences), or the whole output is (index < 0). */
+/* Files a frame of a sequence: frame n is files n * this and on, in order of time. */
+int wf_sink_files(const wf_sink_options *options);
+
+/* Whether file `frame` is already there, whole (sequences), or the whole output is (index < 0).
+ */
 bool wf_sink_present(const wf_sink_kind *kind, const char *output, int64_t frame);
 
 #endif

@@ -24,34 +24,35 @@ struct wf_sink {
 /* ---- Names ---- */
 
 static weft_status check_name(const wf_sink_options *o, weft_error *err) {
-    if (wf_sequence_is_pattern(o->output) || (o->frame_count <= 1 && !o->first_frame))
-        return WEFT_OK;
+    int64_t files = o->frame_count * wf_sink_files(o);
+    if (wf_sequence_is_pattern(o->output) || (files <= 1 && !o->first_frame)) return WEFT_OK;
     const char *dot = strrchr(o->output, '.');
-    return wf_fail(
-        err, WEFT_USAGE,
-        "%.500s: there are %" PRId64 " frames, and each is a file; say where its number "
-        "goes, such as %.*s.####%s",
-        o->output, o->frame_count, dot ? (int)(dot - o->output) : 0, o->output, dot ? dot : "");
+    return wf_fail(err, WEFT_USAGE,
+                   "%.500s: there are %" PRId64 " %s, and each is a file; say where its number "
+                   "goes, such as %.*s.####%s",
+                   o->output, files, o->separate_fields ? "fields" : "frames",
+                   dot ? (int)(dot - o->output) : 0, o->output, dot ? dot : "");
 }
 
-static weft_status name_frame(const wf_sink_options *o, int64_t frame, char path[PATH_MAX],
-                              weft_error *err) {
+static weft_status name_file(const wf_sink_options *o, int64_t number, char path[PATH_MAX],
+                             weft_error *err) {
     bool fits = wf_sequence_is_pattern(o->output)
-                    ? wf_sequence_output_path(o->output, frame, path, PATH_MAX)
+                    ? wf_sequence_output_path(o->output, number, path, PATH_MAX)
                     : snprintf(path, PATH_MAX, "%s", o->output) < PATH_MAX;
     if (fits) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
-                   "%.500s: the name of frame %" PRId64 " is too long; shorten it", o->output,
-                   frame);
+                   "%.500s: the name of number %" PRId64 " is too long; shorten it", o->output,
+                   number);
 }
 
 /* An hour's rendering is not to end at a file that was there before. */
 static weft_status check_absent(const wf_sink_options *o, weft_error *err) {
     char path[PATH_MAX];
     weft_status status = WEFT_OK;
-    for (int64_t i = 0; !status && i < o->frame_count; i++) {
+    int files = wf_sink_files(o);
+    for (int64_t i = 0; !status && i < o->frame_count * files; i++) {
         struct stat about;
-        status = name_frame(o, o->first_frame + i, path, err);
+        status = name_file(o, o->first_frame * files + i, path, err);
         if (status || o->overwrite || o->resume || lstat(path, &about)) continue;
         if (S_ISREG(about.st_mode))
             status =
@@ -119,12 +120,8 @@ static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const 
                   : wf_fail(err, status, "%.600s: %.400s", path, why.text);
 }
 
-static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *err) {
+static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
     const wf_sink_options *o = &s->options;
-    char path[PATH_MAX], timecode[WF_TIMECODE_SIZE];
-    weft_status status = name_frame(o, frame->index, path, err);
-    if (status) return status;
-    label_frame(o, frame->index, timecode);
     wf_oiio_picture picture = {
         .format = s->format,
         .width_px = o->raster->width_px,
@@ -134,7 +131,6 @@ static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *er
         .frame_rate = o->raster->frame_rate,
         .interlaced = o->raster->scan == WF_INTERLACED,
         .top_first = o->raster->top_first,
-        .timecode = timecode,
         .color_space = o->color_space ? o->color_space : "",
         .raster = o->raster->name,
         .subframe_rate = o->subframe_rate,
@@ -145,7 +141,39 @@ static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *er
         picture.plane[c] = frame->plane[c];
         picture.line_stride[c] = frame->stride[c];
     }
-    return write_file(s, &picture, path, err);
+    return picture;
+}
+
+/* Of a frame's picture that of one field: every other line of it. */
+static void take_field(const wf_sink *s, int n, wf_oiio_picture *p) {
+    const wf_raster *raster = s->options.raster;
+    int parity = wf_raster_parity(raster, n);
+    size_t bytes = p->bits == 32 ? sizeof(float) : sizeof(uint16_t);
+    for (int c = 0; c < 3; c++) {
+        p->plane[c] = (const char *)p->plane[c] + (size_t)parity * p->line_stride[c] * bytes;
+        p->line_stride[c] *= 2;
+    }
+    p->lines = wf_raster_field_lines(raster, parity);
+    p->pixel_aspect /= 2;
+    p->frame_rate = wf_ratio_mul(p->frame_rate, wf_ratio(2, 1));
+    p->field = n + 1;
+    p->top_lines = parity == 0;
+}
+
+static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *err) {
+    const wf_sink_options *o = &s->options;
+    char path[PATH_MAX], timecode[WF_TIMECODE_SIZE];
+    int files = wf_sink_files(o);
+    weft_status status = WEFT_OK;
+    label_frame(o, frame->index, timecode);
+    for (int n = 0; !status && n < files; n++) {
+        wf_oiio_picture picture = describe(s, frame);
+        picture.timecode = timecode;
+        if (o->separate_fields) take_field(s, n, &picture);
+        status = name_file(o, frame->index * files + n, path, err);
+        if (!status) status = write_file(s, &picture, path, err);
+    }
+    return status;
 }
 
 static weft_status commit(wf_sink *s, weft_error *err) {

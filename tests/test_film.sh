@@ -1,0 +1,43 @@
+#!/bin/bash
+# 2:3 pulldown as others see it: ffmpeg gets the film frames back, and weft measure sees film.
+. "$WEFT_SOURCE/tests/script.sh"
+
+scene=$WEFT_SOURCE/examples/scenes/carousel.lua
+small="--samples 4 -q --bits 8"
+
+# body FILE: Y4M without its header.
+body() { tail -c +"$(($(head -1 "$1" | wc -c) + 1))" "$1"; }
+
+recovers()
+{
+    ffmpeg -nostdin -v error -y -i "$1" -vf fieldmatch="order=$2:combmatch=full",decimate \
+        -pix_fmt yuv422p back.y4m && cmp <(body back.y4m) <(body "$3")
+}
+
+# shellcheck disable=SC2086
+video() { weft render "$scene" $small "$@"; }
+
+check "film" video --raster 180x122@23.976p --frames 0-23 -o film.y4m
+for order in bff tff; do
+    check "pulldown, $order" video --cadence 2:3 --raster 180x122@29.97i,$order --frames 0-29 -o $order.y4m
+    check "$order is measured" weft measure $order.y4m --limit order.verdict=telecined
+    has ffmpeg && check "ffmpeg's inverse gives the film, $order" recovers $order.y4m $order film.y4m
+done
+
+check "renders without skipping are the same" video --cadence 2:3 --raster 180x122@29.97i,bff \
+    --frames 0-29 --skip off --chunk 2/3 -o part2.y4m
+check "chunks are the run" cmp part2.y4m <(body bff.y4m | tail -c +$((10 * (180 * 122 * 2 + 6) + 1)) |
+    head -c $((10 * (180 * 122 * 2 + 6))))
+
+check "subframes of film" weft trace "$scene" -q --raster 180x122@23.976p --oversample 1x2x4 \
+    --frames 0-11 -o 'sub.####.exr'
+check "converted to film" weft convert 'sub.####.exr' -q --bits 8 --raster 180x122@23.976p \
+    --subframe-rate 96000/1001 -o film2.y4m
+check "and to fields, slowed" exits 0 weft convert 'sub.####.exr' --bits 8 --cadence 2:3 \
+    --raster 180x122@29.97i,bff --subframe-rate 96 -o fields.y4m
+check "which is said" says "96 subframes a second run at 96000/1001"
+check "a film is measured" weft measure fields.y4m --limit order.verdict=telecined
+has ffmpeg && check "ffmpeg gets it back" recovers fields.y4m bff film2.y4m
+
+check "samples are refused" exits 2 weft trace "$scene" --raster 180x122@23.976p --cadence 2:3 -o 's.####.exr'
+finish
