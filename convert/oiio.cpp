@@ -321,7 +321,8 @@ class Memory final : public Filesystem::IOVecOutput {
     }
 };
 
-// The labels that DPX has for how codes are to be understood, by weft's names of color spaces.
+// The labels that ST 268-1 has for how codes are to be understood, by weft's names of color
+// spaces; Rec. 2020 and 2100 are younger and have none.
 const char *dpx_characteristic(const std::string &space) {
     static const struct {
         const char *space, *label;
@@ -332,6 +333,26 @@ const char *dpx_characteristic(const std::string &space) {
     for (const auto &row : labels)
         if (!space.compare(0, std::strlen(row.space), row.space)) return row.label;
     return "User defined";
+}
+
+// CIE x and y of red, green, blue and white, which EXR takes for Rec. 709's where nothing is
+// said.
+void describe_primaries(const std::string &space, ImageSpec &spec) {
+    static const struct {
+        const char *space; // how its name begins
+        float xy[8];
+    } rows[] = {{"rec601-525", {.63f, .34f, .31f, .595f, .155f, .07f, .3127f, .329f}},
+                {"rec601-625", {.64f, .33f, .29f, .6f, .15f, .06f, .3127f, .329f}},
+                {"rec709", {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f}},
+                {"lin_rec709", {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f}},
+                {"rec2", {.708f, .292f, .17f, .797f, .131f, .046f, .3127f, .329f}},
+                {"lin_rec2020", {.708f, .292f, .17f, .797f, .131f, .046f, .3127f, .329f}},
+                {"lin_p3d65", {.68f, .32f, .265f, .69f, .15f, .06f, .3127f, .329f}},
+                {"ACEScg", {.713f, .293f, .165f, .83f, .128f, .044f, .32168f, .33767f}},
+                {"ACES2065-1", {.7347f, .2653f, 0, 1, .0001f, -.077f, .32168f, .33767f}}};
+    for (const auto &row : rows)
+        if (!space.compare(0, std::strlen(row.space), row.space))
+            spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), row.xy);
 }
 
 const char *order_name(const wf_oiio_picture &p) {
@@ -364,6 +385,7 @@ void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
     add_ratio(spec, "weft:time", p.time_s);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
+    describe_primaries(p.color_space, spec);
     if (p.field) spec.attribute("weft:field", p.field);
     describe_time(p, spec);
 }
@@ -382,6 +404,7 @@ void describe_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("dpx:FieldNumber", p.field ? p.field : p.interlaced && !p.top_first ? 2 : 1);
     spec.attribute("dpx:Transfer", label);
     spec.attribute("dpx:Colorimetric", label);
+    spec.attribute("DocumentName", p.color_space); // the project's name, for want of a better
     describe_time(p, spec);
 }
 
@@ -389,30 +412,86 @@ void describe_dpx(const wf_oiio_picture &p, ImageSpec &spec) {
 // 6600 = 600 x 11 keeps the elevenths of 525 and 625 lines exact.
 void describe_density(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("XResolution", 6600.0f);
-    spec.attribute("YResolution", float(std::round(6600 * p.pixel_aspect)));
+    spec.attribute("YResolution", float(std::round(6600 * wf_ratio_value(p.pixel_aspect))));
     spec.attribute("ResolutionUnit", "none");
 }
 
 void describe_tiff(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("compression", "zip");
+    const std::string words = spec.get_string_attribute("ImageDescription");
+    if (*p.color_space) spec.attribute("ImageDescription", words + ", " + p.color_space);
     describe_density(p, spec);
 }
 
 void describe_png(const wf_oiio_picture &p, ImageSpec &spec) {
     spec.attribute("png:compressionLevel", 4);
     spec.attribute("weft:raster", p.raster);
+    if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
     spec.attribute("weft:timecode", p.timecode);
     if (p.field) spec.attribute("weft:field", std::to_string(p.field));
     describe_density(p, spec);
 }
 
+// ---- What OpenImageIO cannot write ----
+
+using Bytes = std::vector<unsigned char>;
+
+void put_big(Bytes &bytes, size_t at, uint32_t word) {
+    for (int i = 0; i < 4; i++) bytes[at + size_t(i)] = uint8_t(word >> (24 - 8 * i));
+}
+
+// OpenImageIO 2.4 rounds the pixel aspect to millionths and writes 1/2 as 1/0.
+void finish_dpx(const wf_oiio_picture &p, Bytes &bytes) {
+    constexpr size_t aspect = 1628;
+    if (bytes.size() < aspect + 8 || p.pixel_aspect.num > UINT32_MAX ||
+        p.pixel_aspect.den > UINT32_MAX)
+        return;
+    put_big(bytes, aspect, uint32_t(p.pixel_aspect.num));
+    put_big(bytes, aspect + 4, uint32_t(p.pixel_aspect.den));
+}
+
+uint32_t png_checksum(const unsigned char *data, size_t bytes) {
+    uint32_t sum = ~0u;
+    for (size_t i = 0; i < bytes; i++) {
+        sum ^= data[i];
+        for (int bit = 0; bit < 8; bit++) sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0);
+    }
+    return ~sum;
+}
+
+// cICP of PNG's third edition: primaries and transfer, no matrix, and whether codes are of full
+// range. It comes before the picture, here first of all after IHDR.
+void finish_png(const wf_oiio_picture &p, Bytes &bytes) {
+    constexpr size_t after_header = 33;
+    if (!p.transfer || bytes.size() < after_header) return;
+    Bytes chunk = {0,
+                   0,
+                   0,
+                   4,
+                   'c',
+                   'I',
+                   'C',
+                   'P',
+                   uint8_t(p.primaries),
+                   uint8_t(p.transfer),
+                   0,
+                   uint8_t(p.full_range),
+                   0,
+                   0,
+                   0,
+                   0};
+    put_big(chunk, 12, png_checksum(&chunk[4], 8));
+    bytes.insert(bytes.begin() + after_header, chunk.begin(), chunk.end());
+}
+
 const struct {
     const char *format;
     void (*describe)(const wf_oiio_picture &p, ImageSpec &spec);
-} writers[] = {{"openexr", describe_exr},
-               {"dpx", describe_dpx},
-               {"tiff", describe_tiff},
-               {"png", describe_png}};
+    void (*finish)(const wf_oiio_picture &p, Bytes &bytes);
+} writers[] = {{"openexr", describe_exr, nullptr},
+               {"dpx", describe_dpx, finish_dpx},
+               {"tiff", describe_tiff, nullptr},
+               {"png", describe_png, finish_png}};
 
 ImageSpec spec_of(const wf_oiio_picture &p) {
     const TypeDesc type = p.bits == 32  ? TypeDesc::FLOAT
@@ -422,7 +501,7 @@ ImageSpec spec_of(const wf_oiio_picture &p) {
     spec.attribute("Software", "weft " WEFT_VERSION);
     spec.attribute("DateTime", ""); // or the writer's clock: equal frames are to be equal files
     spec.attribute("Orientation", 1);
-    spec.attribute("PixelAspectRatio", float(p.pixel_aspect));
+    spec.attribute("PixelAspectRatio", float(wf_ratio_value(p.pixel_aspect)));
     const std::string order = order_name(p); // DPX has room for 31 characters
     spec.attribute("ImageDescription",
                    std::string(p.raster).substr(0, 29 - order.size()) + ", " + order);
@@ -518,7 +597,11 @@ extern "C" weft_status wf_oiio_write(const wf_oiio_picture *picture, wf_oiio_byt
     return guarded(picture->format, err, [&] {
         Memory memory;
         weft_status status = encode(*picture, memory, err);
-        return status ? status
-                      : write(user, memory.buffer().data(), memory.buffer().size(), err);
+        if (status) return status;
+        Bytes bytes = memory.buffer();
+        for (const auto &row : writers)
+            if (row.finish && !std::strcmp(row.format, picture->format))
+                row.finish(*picture, bytes);
+        return write(user, bytes.data(), bytes.size(), err);
     });
 }

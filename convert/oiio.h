@@ -27,15 +27,17 @@ typedef struct wf_oiio_picture {
     const void *plane[3];
     size_t line_stride[3];
     int width_px, lines;
-    int bits;               /* 8, 10, 12, 16: uint16_t codes; 32: float samples */
-    double pixel_aspect;    /* width over height of a pixel */
-    wf_rational frame_rate; /* pictures a second */
+    bool full_range;          /* codes reach from 0 to the highest */
+    int bits;                 /* 8, 10, 12, 16: uint16_t codes; 32: float samples */
+    wf_rational pixel_aspect; /* width over height of a pixel */
+    wf_rational frame_rate;   /* pictures a second */
     int field;       /* 1, 2: it is the first or second field of a frame, alone; 0: not */
     bool top_lines;  /* and that field has the frame's top line */
     bool interlaced; /* two fields are woven into it */
     bool top_first;
     const char *timecode;              /* of the frame: "01:02:03;04"; "" for none */
     const char *color_space;           /* "" if unknown */
+    int primaries, transfer;           /* its code points of ITU-T H.273; 0: none */
     const char *raster;                /* for weft:raster; "" for none */
     wf_rational subframe_rate, time_s; /* of a subframe; {0, 0}: it is none */
 } wf_oiio_picture;

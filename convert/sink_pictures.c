@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/colors.h"
 #include "convert/module.h"
 #include "convert/oiio.h"
 #include "convert/outfile.h"
@@ -127,7 +128,8 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
         .width_px = o->raster->width_px,
         .lines = o->raster->lines,
         .bits = o->bits,
-        .pixel_aspect = wf_ratio_value(o->raster->pixel_aspect),
+        .full_range = o->full_range,
+        .pixel_aspect = o->raster->pixel_aspect,
         .frame_rate = o->raster->frame_rate,
         .interlaced = o->raster->scan == WF_INTERLACED,
         .top_first = o->raster->top_first,
@@ -135,6 +137,11 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
         .raster = o->raster->name,
         .subframe_rate = o->subframe_rate,
     };
+    if (wf_color_has_tags(o->color_space)) {
+        wf_color_tags tags = wf_color_tags_of(o->color_space, o->raster->matrix);
+        picture.primaries = tags.primaries;
+        picture.transfer = tags.transfer;
+    }
     if (wf_ratio_given(o->subframe_rate))
         picture.time_s = wf_ratio_div(wf_ratio(frame->index, 1), o->subframe_rate);
     for (int c = 0; c < 3; c++) {
@@ -154,7 +161,7 @@ static void take_field(const wf_sink *s, int n, wf_oiio_picture *p) {
         p->line_stride[c] *= 2;
     }
     p->lines = wf_raster_field_lines(raster, parity);
-    p->pixel_aspect /= 2;
+    p->pixel_aspect = wf_ratio_div(p->pixel_aspect, wf_ratio(2, 1));
     p->frame_rate = wf_ratio_mul(p->frame_rate, wf_ratio(2, 1));
     p->field = n + 1;
     p->top_lines = parity == 0;

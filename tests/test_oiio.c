@@ -109,7 +109,7 @@ static void make(const char *name, const char *format, int bits) {
                          .width_px = WIDTH,
                          .lines = LINES,
                          .bits = bits,
-                         .pixel_aspect = 1,
+                         .pixel_aspect = {1, 1},
                          .frame_rate = {25, 1},
                          .timecode = "10:00:00:00",
                          .color_space = "rec709",
