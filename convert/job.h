@@ -66,9 +66,9 @@ struct weft_job {
     wf_on_empty on_empty;
 
     bool separate_fields; /* of image sequences: a file each */
-    char *timecode;
-    char *codec;       /* NULL: the container's default */
-    int silent_tracks; /* of sound, in containers */
+    char *timecode;       /* of frame 0; NULL: the input's, or 00:00:00:00 */
+    char *codec;          /* NULL: the container's default */
+    int silent_tracks;    /* of sound, in containers */
     wf_on_missing on_missing;
     wf_nan_fix nan_fix;
     int chunk, chunk_count; /* 1-based */

@@ -160,9 +160,8 @@ wf_rational ratio_attribute(const ImageSpec &spec, const char *name) {
     return value;
 }
 
-wf_rational rate_of(const ImageSpec &spec) {
-    for (const char *name :
-         {"weft:subframeRate", "framesPerSecond", "dpx:FrameRate", "dpx:TemporalFrameRate"}) {
+wf_rational first_rate(const ImageSpec &spec, std::initializer_list<const char *> names) {
+    for (const char *name : names) {
         wf_rational rate = ratio_attribute(spec, name);
         if (wf_ratio_given(rate) && rate.num > 0) return rate;
     }
@@ -183,6 +182,7 @@ void read_timecode(const ImageSpec &spec, wf_image_info *info) {
     }
     snprintf(info->timecode, sizeof info->timecode, "%02u:%02u:%02u%c%02u", value[0], value[1],
              value[2], t & 0x40 ? ';' : ':', value[3]);
+    info->timecode_mark = t >> 15 & 1;
 }
 
 void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
@@ -211,7 +211,10 @@ void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info)
     info->data = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
     const double aspect = spec.get_float_attribute("PixelAspectRatio", 1);
     info->pixel_aspect = aspect > 1e-3 && aspect < 1e3 ? aspect : 1;
-    info->rate = rate_of(spec);
+    info->frames =
+        first_rate(spec, {"framesPerSecond", "dpx:FrameRate", "dpx:TemporalFrameRate"});
+    info->rate = first_rate(spec, {"weft:subframeRate"});
+    if (!wf_ratio_given(info->rate)) info->rate = info->frames;
     info->time_s = ratio_attribute(spec, "weft:time");
     info->has_alpha = spec.alpha_channel >= 0;
     info->whole = true;

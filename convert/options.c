@@ -46,7 +46,7 @@ static const wf_option_row rows[] = {
         "How much later the last line looks, in field periods: 1 is a tube camera.", set_ratio,
         AT(scan_skew), FROM(0, 1, ", such as 1 or 0.5"), INITIAL),
     ROW(timing, "cadence", "none|2:3", "none",
-        "2:3 shows film, 24 frames a second, in 60 fields: each film frame is seen once, and a "
+        "Shows film, 24 frames a second, in 60 fields: each film frame is seen once, and a "
         "period is a film frame's.",
         set_choice, AT(cadence), INITIAL),
     ROW(timing, "subframe-rate", "R", "from the files",
@@ -55,9 +55,9 @@ static const wf_option_row rows[] = {
     ROW(timing, "subframe-time", "start|center", "start",
         "Whether subframe k stands for the time after k/R or about it.", set_switch,
         AT(subframe_time_center), INITIAL),
-    ROW(timing, "timecode", "HH:MM:SS:FF", "00:00:00:00",
+    ROW(timing, "timecode", "HH:MM:SS:FF", "the input's, or 00:00:00:00",
         "Timecode of frame 0; a semicolon before FF counts drop frame.", set_timecode,
-        AT(timecode), INITIAL),
+        AT(timecode)),
 
     ROW(input, "frames", "A-BxS", "all",
         "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",

@@ -9,6 +9,7 @@
 #include "color/ocio.h"
 #include "convert/colors.h"
 #include "convert/module.h"
+#include "convert/start.h"
 
 /* ---- Input ---- */
 
@@ -350,7 +351,7 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .subsampled = s->sink->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
         .separate_fields = job->separate_fields,
         .stream_header = job->chunk == 1,
-        .timecode = job->timecode,
+        .timecode = job->timecode ? job->timecode : "00:00:00:00",
         .color_space = s->color_space,
         .codec = job->codec,
         .silent_tracks = job->silent_tracks,
@@ -390,6 +391,7 @@ weft_status wf_setup_make(weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = wf_setup_output(job, s, err);
     if (!status) status = find_input(job, s, err);
     if (!status) status = make_resampler(job, s, err);
+    if (!status) wf_start_timecode(job, s);
     wf_setup_count_frames(s);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "convert/job.h"
 #include "convert/sequence.h"
 #include "convert/report.h"
+#include "convert/timecode.h"
 #include "filters/resampler.h"
 #include "filters/samples.h"
 
@@ -19,6 +20,7 @@ typedef struct wf_setup {
 
     const wf_sink_kind *sink;
     wf_sink_options sink_options;
+    char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
     const char *scene_space; /* what the input says that its colours are in; NULL: nothing */
     char color_space[64];
     wf_transform transform; /* apply is NULL where colour is left alone */

@@ -262,9 +262,8 @@ static wf_rational rational_of(const wf_subframe *s, const char *name) {
     return value;
 }
 
-static wf_rational rate_of(const wf_subframe *s) {
-    wf_rational rate = rational_of(s, "weft:subframeRate");
-    if (!wf_ratio_given(rate)) rate = rational_of(s, "framesPerSecond");
+static wf_rational rate_of(const wf_subframe *s, const char *name) {
+    wf_rational rate = rational_of(s, name);
     return wf_ratio_given(rate) && rate.num > 0 ? rate : (wf_rational){0, 0};
 }
 
@@ -279,6 +278,7 @@ static void read_timecode(wf_subframe *s) {
              hours = (t >> 24 & 15) + 10 * (t >> 28 & 3);
     snprintf(s->info.timecode, sizeof s->info.timecode, "%02u:%02u:%02u%c%02u", hours % 100,
              minutes % 100, seconds % 100, t & 0x40 ? ';' : ':', frames % 100);
+    s->info.timecode_mark = t >> 15 & 1;
 }
 
 static void read_raster(wf_subframe *s) {
@@ -311,7 +311,9 @@ static void read_attributes(wf_subframe *s) {
     float aspect = 1;
     exr_get_pixel_aspect_ratio(s->exr, s->part, &aspect);
     s->info.pixel_aspect = aspect > 1e-3f && aspect < 1e3f ? (double)aspect : 1;
-    s->info.rate = rate_of(s);
+    s->info.frames = rate_of(s, "framesPerSecond");
+    s->info.rate = rate_of(s, "weft:subframeRate");
+    if (!wf_ratio_given(s->info.rate)) s->info.rate = s->info.frames;
     s->info.time_s = rational_of(s, "weft:time");
     s->info.has_alpha = s->layout.channels == 4;
     s->info.band_lines = s->layout.chunk_lines;

@@ -96,7 +96,23 @@ wf_timecode wf_timecode_add(const wf_timecode *label, int64_t frames, wf_rationa
                              label->drop_frame);
 }
 
+bool wf_timecode_convert(wf_timecode label, wf_rational from, wf_rational to,
+                         wf_timecode *out) {
+    char why[256];
+    label.drop_frame = label.drop_frame && wf_timecode_may_drop(from);
+    if (!wf_timecode_check(&label, from, why, sizeof why)) return false;
+    label.frames = label.frames * wf_timecode_base(to) / wf_timecode_base(from);
+    label.drop_frame = label.drop_frame && wf_timecode_may_drop(to);
+    *out = label;
+    return true;
+}
+
 /* ---- Forms ---- */
+
+int wf_timecode_together(wf_rational rate) {
+    int base = wf_timecode_base(rate);
+    return base > 39 ? (base + 29) / 30 : 1;
+}
 
 const char *wf_timecode_text(const wf_timecode *label, char text[WF_TIMECODE_SIZE]) {
     snprintf(text, WF_TIMECODE_SIZE, "%02d:%02d:%02d%c%02d", label->hours % 100,
@@ -110,7 +126,7 @@ static uint32_t decimal(int value) {
 }
 
 uint32_t wf_timecode_bcd(const wf_timecode *label, wf_rational rate) {
-    int base = wf_timecode_base(rate), together = base > 39 ? (base + 29) / 30 : 1;
+    int together = wf_timecode_together(rate);
     uint32_t word = decimal(label->hours) << 24 | decimal(label->minutes) << 16 |
                     decimal(label->seconds) << 8 | decimal(label->frames / together);
     if (label->drop_frame) word |= DROP_FRAME_BIT;

@@ -27,9 +27,17 @@ int64_t wf_timecode_day(wf_rational rate, bool drop_frame); /* frames */
 /* The label `frames` (which may be negative) after one. */
 wf_timecode wf_timecode_add(const wf_timecode *label, int64_t frames, wf_rational rate);
 
+/* What a label of one rate is at another: hours, minutes and seconds stay, and frames keep
+ * their share of the second, rounded down, as 24-frame and 30-frame counts of one tape do. Drop
+ * frame stays where the other rate has it. False where it is no label of `from`. */
+bool wf_timecode_convert(wf_timecode label, wf_rational from, wf_rational to, wf_timecode *out);
+
 /* "01:02:03;04". Returns text. */
 #define WF_TIMECODE_SIZE 20
 const char *wf_timecode_text(const wf_timecode *label, char text[WF_TIMECODE_SIZE]);
+
+/* How many frames such a word counts as one. */
+int wf_timecode_together(wf_rational rate);
 
 /* The word that EXR (timeCode) and DPX hold: binary coded decimal, from the lowest bits frames,
  * seconds, minutes, hours, a byte each, with bit 6 for drop frame; flags otherwise 0, as

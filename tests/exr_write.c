@@ -57,6 +57,9 @@ static bool describe(writer *w) {
            set_ratio(w, "weft:time", p->time);
     if (fine && p->subframe_rate)
         fine = !exr_attr_set_string(w->exr, w->index, "weft:subframeRate", p->subframe_rate);
+    const exr_attr_timecode_t label = {.time_and_flags = p->timecode};
+    if (fine && p->timecode)
+        fine = !exr_attr_set_timecode(w->exr, w->index, "timeCode", &label);
     return fine;
 }
 

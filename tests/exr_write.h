@@ -15,6 +15,7 @@ typedef struct exr_part {
     int tile_width, tile_height; /* 0: scanlines */
     const char *rate, *time;     /* "480000/1001": framesPerSecond and weft:time; NULL: none */
     const char *subframe_rate;   /* weft:subframeRate, as text; NULL: none */
+    uint32_t timecode;           /* timeCode, as convert/timecode.h packs it; 0: none */
     float pixel_aspect;          /* 0: 1 */
     /* Value of a channel at a pixel of the data window. */
     float (*value)(const void *user, int channel, int x, int y);

@@ -80,22 +80,17 @@ static void rows_are_complete(void **state) {
 static void presets_are_what_a_new_job_has(void **state) {
     (void)state;
     static const char *const sayings[] = {"from the files", "the aperture's", "all",
-                                          "the output's"};
+                                          "the output's", "the input's, or 00:00:00:00"};
     weft_option option;
     weft_job *fresh = new_job(), *job = new_job();
     for (size_t i = 0; weft_option_at(i, &option); i++) {
         bool saying = !option.preset || takes_any_text(option.name);
-        for (size_t s = 0; s < 4 && !saying; s++) saying = !strcmp(option.preset, sayings[s]);
+        for (size_t s = 0; s < sizeof sayings / sizeof *sayings && !saying; s++)
+            saying = !strcmp(option.preset, sayings[s]);
         if (saying && strcmp(option.name, "threads")) continue;
         take(job, option.name, option.preset);
     }
-    assert_string_equal(job->timecode, fresh->timecode);
-    free(job->timecode);
-    job->timecode = strdup(fresh->timecode);
-    char *mine = job->timecode;
-    job->timecode = fresh->timecode;
     assert_memory_equal(job, fresh, sizeof *job);
-    job->timecode = mine;
     assert_string_equal(job->raster.name, "525i");
     assert_string_equal(job->aperture.kind->name, "shaped");
     assert_true(job->skip && job->max_memory_bytes == (size_t)2 << 30 && !job->threads &&

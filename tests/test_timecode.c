@@ -178,11 +178,42 @@ static void words(void **state) {
     }
 }
 
+/* Seconds stay where they are, frames keep their share. */
+static void other_rates(void **state) {
+    (void)state;
+    const wf_rational film = {24000, 1001}, ntsc = {30000, 1001}, pal = {25, 1},
+                      fast = {60000, 1001};
+    const struct {
+        wf_rational from, to;
+        const char *given, *label; /* NULL: it is none */
+    } cases[] = {
+        {film, ntsc, "10:00:00:12", "10:00:00:15"}, {film, ntsc, "10:00:00:23", "10:00:00:28"},
+        {film, ntsc, "10:00:00:24", NULL},          {ntsc, ntsc, "00:01:00;02", "00:01:00;02"},
+        {ntsc, ntsc, "00:01:00;01", NULL},          {ntsc, pal, "00:01:00;29", "00:01:00:24"},
+        {ntsc, fast, "00:01:00;02", "00:01:00;04"}, {fast, ntsc, "00:01:00;05", "00:01:00;02"},
+        {pal, film, "23:59:59:24", "23:59:59:23"},  {pal, ntsc, "23:59:59;24", "23:59:59:28"},
+    };
+    for (size_t c = 0; c < LENGTH(cases); c++) {
+        wf_timecode label;
+        char text[WF_TIMECODE_SIZE], why[256];
+        assert_true(wf_parse_timecode(cases[c].given, &label));
+        bool is = wf_timecode_convert(label, cases[c].from, cases[c].to, &label);
+        assert_true(is == (cases[c].label != NULL));
+        if (!is) continue;
+        assert_string_equal(wf_timecode_text(&label, text), cases[c].label);
+        assert_true(wf_timecode_check(&label, cases[c].to, why, sizeof why));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_label_of_a_day),       cmocka_unit_test(ten_minutes),
-        cmocka_unit_test(drop_frame_keeps_time),      cmocka_unit_test(adding),
-        cmocka_unit_test(labels_that_a_rate_has_not), cmocka_unit_test(words),
+        cmocka_unit_test(every_label_of_a_day),
+        cmocka_unit_test(ten_minutes),
+        cmocka_unit_test(drop_frame_keeps_time),
+        cmocka_unit_test(adding),
+        cmocka_unit_test(labels_that_a_rate_has_not),
+        cmocka_unit_test(words),
+        cmocka_unit_test(other_rates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
