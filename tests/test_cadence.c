@@ -171,6 +171,30 @@ static void fields_show_film(void **state) {
     }
 }
 
+/* Both fields of a segmented frame show one window, which is the progressive frame's. */
+static void segmented_frames_show_one_instant(void **state) {
+    (void)state;
+    const char *more[] = {"", " temporal-width=1", " temporal-width=2.5 skip=off"};
+    write_film("192000/1001", EACH);
+    for (size_t c = 0; c < sizeof more / sizeof *more; c++) {
+        char options[256];
+        size_t size, film_size;
+        snprintf(options, sizeof options, "overwrite aperture=box raster=16x12@23.976psf%s",
+                 more[c]);
+        job_done(options, "psf.y4m", NULL);
+        snprintf(options, sizeof options, "overwrite aperture=box " FILM_RASTER "%s", more[c]);
+        job_done(options, "film.y4m", NULL);
+        uint8_t *psf = job_file("psf.y4m", &size), *film = job_file("film.y4m", &film_size);
+        assert_int_equal(size, film_size);
+        assert_non_null(memmem(psf, 100, " Ip", 3));
+        for (int frame = 0; frame < FILM; frame++)
+            for (int y = 0; y < LINES; y++)
+                same_line(frame_of(psf, frame), frame_of(film, frame), y);
+        free(psf);
+        free(film);
+    }
+}
+
 /* 24 runs at 24000/1001, and at 24 where fields are 60. */
 static void film_runs_at_the_rasters_speed(void **state) {
     (void)state;
@@ -249,10 +273,15 @@ static void what_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(letters_of_fields), cmocka_unit_test(windows_of_film_frames),
-        cmocka_unit_test(frames_of_film),    cmocka_unit_test(rasters_without_film),
-        cmocka_unit_test(fields_show_film),  cmocka_unit_test(film_runs_at_the_rasters_speed),
-        cmocka_unit_test(chunks_join),       cmocka_unit_test(resuming_makes_the_same),
+        cmocka_unit_test(letters_of_fields),
+        cmocka_unit_test(windows_of_film_frames),
+        cmocka_unit_test(frames_of_film),
+        cmocka_unit_test(rasters_without_film),
+        cmocka_unit_test(fields_show_film),
+        cmocka_unit_test(segmented_frames_show_one_instant),
+        cmocka_unit_test(film_runs_at_the_rasters_speed),
+        cmocka_unit_test(chunks_join),
+        cmocka_unit_test(resuming_makes_the_same),
         cmocka_unit_test(what_is_refused),
     };
     return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);

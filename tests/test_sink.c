@@ -486,10 +486,8 @@ static void check_dpx(const clip *c, const uint8_t *dpx, size_t size, int interl
     assert_int_equal(dpx_u32(dpx, 1920), 0x01020304);
     assert_int_equal(dpx[1928], interlace);
     assert_int_equal(dpx[1929], field);
-    double aspect =
-        (double)dpx_u32(dpx, 1628) / dpx_u32(dpx, 1632); /* in millionths, cut off */
-    double wanted = wf_ratio_value(c->raster.pixel_aspect);
-    assert_true(aspect > wanted - 1.1e-6 && aspect < wanted + 1e-7);
+    assert_int_equal(dpx_u32(dpx, 1628), c->raster.pixel_aspect.num);
+    assert_int_equal(dpx_u32(dpx, 1632), c->raster.pixel_aspect.den);
     size_t offset = dpx_u32(dpx, 4), width = c->width[0];
     assert_int_equal(size, offset + 4 * width * c->lines);
     for (size_t i = 0; i < width * c->lines; i++)
@@ -519,6 +517,40 @@ static void dpx_says_how_it_is_interlaced(void **state) {
         uint8_t *dpx = job_file("out.dpx", &size);
         assert_true(size > 2048);
         check_dpx(&c, dpx, size, rows[r].interlace, rows[r].field, rows[r].transfer);
+        free(dpx);
+        free_clip(&c);
+    }
+}
+
+/* Datum n of a line: 12 bits are packed from the lowest of big-endian 32-bit words on, the rest
+ * are big-endian by themselves. */
+static unsigned dpx_datum(const uint8_t *line, size_t n, int bits) {
+    if (bits == 8) return line[n];
+    if (bits == 16) return (unsigned)line[2 * n] << 8 | line[2 * n + 1];
+    size_t word = n * 12 / 32, shift = n * 12 % 32;
+    uint64_t both = big_endian(line + 4 * word);
+    if (shift > 20) both |= (uint64_t)big_endian(line + 4 * word + 4) << 32;
+    return both >> shift & 4095;
+}
+
+static void dpx_packs_every_depth(void **state) {
+    (void)state;
+    oiio_entry("wf_oiio_write");
+    for (int bits = 8; bits <= 16; bits += 4) {
+        char output[512];
+        size_t size;
+        job_clean();
+        clip c = make_clip(kind_for("out.dpx"), "52x14@30i,tff", bits, false);
+        written(&c, "out.dpx", 0, 1, output);
+        uint8_t *dpx = job_file("out.dpx", &size);
+        size_t line = (3 * c.width[0] * (size_t)bits + 31) / 32 * 4, offset = dpx_u32(dpx, 4);
+        assert_int_equal(dpx[803], bits);
+        if (bits == 12) assert_int_equal(dpx[805], 0); /* packed */
+        assert_int_equal(size - offset, line * c.lines);
+        for (size_t y = 0; y < c.lines; y++)
+            for (size_t n = 0; n < 3 * c.width[0]; n++)
+                assert_int_equal(dpx_datum(dpx + offset + y * line, n, bits),
+                                 code_at(&c, 0, (int)(n % 3), n / 3, y));
         free(dpx);
         free_clip(&c);
     }
@@ -785,6 +817,7 @@ int main(void) {
         cmocka_unit_test(hashes_are_of_the_codes),
         cmocka_unit_test(pictures_hold_the_codes),
         cmocka_unit_test(dpx_says_how_it_is_interlaced),
+        cmocka_unit_test(dpx_packs_every_depth),
         cmocka_unit_test(labels_count_on),
         cmocka_unit_test(frames_need_names),
         cmocka_unit_test(chunks_join),
