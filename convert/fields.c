@@ -48,6 +48,10 @@ weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, vo
                             weft_fields **out, weft_error *err) {
     if (frames < 1 || frames > 1 << 24)
         return wf_fail(err, WEFT_USAGE, "there must be from 1 to %d frames", 1 << 24);
+    if (job->cadence != WF_CADENCE_NONE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--cadence is for subframes and scenes, not for samples that are handed "
+                       "over, whose times count fields");
     weft_fields *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
     *f = (weft_fields){.job = job, .fn = fn, .user = user};

@@ -131,6 +131,8 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "one scene at a time; others can be taken in by its include"},
         {job->command == WF_TRACE && wf_ratio_given(job->error),
          "--error is for render: samples that are written are as many everywhere"},
+        {job->command == WF_TRACE && job->separate_fields,
+         "--fields is for pictures of fields, and trace stores samples; give it to convert"},
         {!job->input_count,
          "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
          "directory"},

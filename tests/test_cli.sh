@@ -35,7 +35,7 @@ done
 "$WEFT" convert --help >out
 for option in raster aperture temporal-width shutter-angle shutter-position scan-skew frames subframe-rate \
     subframe-time fit input-par background layer part ocio from to display view look bits range chroma \
-    legalize dither timecode on-missing fix-nan chunk threads skip max-memory overwrite resume progress quiet \
+    legalize dither timecode cadence fields on-missing fix-nan chunk threads skip max-memory overwrite resume progress quiet \
     report output help; do
     check "help of convert has --$option" grep -q -- "--$option\>" out
 done

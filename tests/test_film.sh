@@ -39,5 +39,16 @@ check "which is said" says "96 subframes a second run at 96000/1001"
 check "a film is measured" weft measure fields.y4m --limit order.verdict=telecined
 has ffmpeg && check "ffmpeg gets it back" recovers fields.y4m bff film2.y4m
 
+# Drop frame to the end of a day of 2589408 frames, and over it: ST 268-1 has the label at 1920.
+label() { od -An -tx1 -j1920 -N4 "day.$1.dpx" | tr -d ' \n'; }
+check "a day's last frames" weft render "$scene" --samples 1 -q --raster 16x12@29.97i,bff \
+    --frames 2589406-2589408 --timecode '00:00:00;00' -o 'day.#######.dpx'
+check "23:59:59;28" test "$(label 2589406)" = 23595968
+check "23:59:59;29" test "$(label 2589407)" = 23595969
+check "00:00:00;00" test "$(label 2589408)" = 00000040
+check "past a minute" weft render "$scene" --samples 1 -q --raster 16x12@29.97i,bff --frames 0-1 \
+    --timecode '00:08:59;29' -o 'day.#.dpx'
+check "whose two first labels are left out" test "$(label 0000) $(label 0001)" = "00085969 00090042"
+
 check "samples are refused" exits 2 weft trace "$scene" --raster 180x122@23.976p --cadence 2:3 -o 's.####.exr'
 finish
