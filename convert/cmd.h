@@ -44,6 +44,15 @@ extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
 weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, weft_job *job,
                          int *operand_count, weft_error *err);
 
+/* Option i of the command: its own first, then the job's that it takes. False past the end. */
+bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter);
+
+/* Loads job files into job, and the command's own options that they hold into its state, whose
+ * values `kept` owns until wf_cmd_forget. A later file wins. */
+weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_list *files, void *state, weft_job *job,
+                        wf_cmd_list *kept, weft_error *err);
+void wf_cmd_forget(wf_cmd_list *kept);
+
 /* Which of the words of `takes` ("a|b|c") the value of --name is: *index gets it, and keeps
  * what it is where nothing was given. */
 weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,

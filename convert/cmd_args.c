@@ -30,8 +30,7 @@ static bool takes_job_option(const wf_cmd *cmd, const char *name) {
     return false;
 }
 
-/* Option i of the command: its own first, then the job's that it takes. False past the end. */
-static bool option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter) {
+bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter) {
     *letter = 0;
     if (i < cmd->option_count) {
         *out = cmd->options[i].shown;
@@ -46,7 +45,7 @@ static bool option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *lette
 
 static bool find_option(const wf_cmd *cmd, const char *name, size_t length, weft_option *out) {
     char letter;
-    for (size_t i = 0; option_at(cmd, i, out, &letter); i++)
+    for (size_t i = 0; wf_cmd_option_at(cmd, i, out, &letter); i++)
         if (strlen(out->name) == length && !strncmp(out->name, name, length)) return true;
     return false;
 }
@@ -56,7 +55,7 @@ static weft_status unknown_option(const wf_cmd *cmd, const char *dashes, const c
     wf_near near = {.text = name};
     weft_option option;
     char letter, means[64] = "";
-    for (size_t i = 0; option_at(cmd, i, &option, &letter); i++)
+    for (size_t i = 0; wf_cmd_option_at(cmd, i, &option, &letter); i++)
         wf_near_offer(&near, option.name);
     if (near.best)
         snprintf(means, sizeof means, "did you mean --%s?", near.best);
@@ -231,7 +230,7 @@ void wf_cmd_help(const wf_cmd *cmd) {
     weft_option option;
     char letter;
     const char *group = "";
-    for (size_t i = 0; option_at(cmd, i, &option, &letter); i++) {
+    for (size_t i = 0; wf_cmd_option_at(cmd, i, &option, &letter); i++) {
         if (strcmp(group, option.group)) printf("\n%s:\n", option.group);
         group = option.group;
         help_option(&option, letter);

@@ -8,11 +8,13 @@
 
 #include "convert/cmd.h"
 #include "convert/fail.h"
+#include "convert/jobfile.h"
 #include "convert/outfile.h"
 
 typedef struct job_state {
     const char *output, *progress, *report;
     bool quiet;
+    wf_cmd_list jobs, kept; /* job files, and values that they gave */
     wf_meter meter;
 } job_state;
 
@@ -84,11 +86,36 @@ static weft_status check_state(job_state *state, weft_error *err) {
     return WEFT_OK;
 }
 
+/* Job files come before all other options, wherever they stand: a trial tells which there are.
+ */
+static weft_status load_jobs(const wf_cmd *cmd, int argc, char **argv, job_state *state,
+                             weft_job *job, weft_error *err) {
+    int ignored;
+    job_state seen = {0};
+    weft_job *trial = weft_job_new();
+    char **words = malloc(((size_t)argc + 1) * sizeof *words);
+    weft_status status = WEFT_OK;
+    if (!trial || !words) status = wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    if (words) memcpy(words, argv, (size_t)argc * sizeof *words);
+    if (!status) status = wf_cmd_parse(cmd, argc, words, &seen, trial, &ignored, err);
+    if (!status) status = wf_cmd_load(cmd, &seen.jobs, state, job, &state->kept, err);
+    weft_job_free(trial);
+    free(words);
+    return status;
+}
+
 static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, job_state *state,
                             weft_job *job, weft_error *err) {
     int inputs = 0;
-    weft_status status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
+    wf_job_layer layer;
+    weft_status status = load_jobs(cmd, argc, argv, state, job, err);
+    if (status) return status;
+    state->jobs.count = 0;
+    wf_job_layer_begin(job, &layer);
+    status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
+    wf_job_layer_end(job, &layer);
     if (!status) status = check_state(state, err);
+    if (inputs) wf_job_clear_inputs(job);
     for (int i = 0; i < inputs && !status; i++) status = weft_job_add_input(job, argv[i], err);
     if (!status && state->output) status = weft_job_set_output(job, state->output, err);
     return status;
@@ -135,6 +162,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     if (!status) status = fill_job(cmd, argc, argv, &state, job, err);
     if (!status) status = run_job(&state, job, err);
     weft_job_free(job);
+    wf_cmd_forget(&state.kept);
     return status;
 }
 
@@ -154,6 +182,12 @@ static const wf_cmd_option options[] = {
      .offset = offsetof(job_state, quiet)},
     {{"report", "FILE", NULL, "Write what was done as JSON, also when it failed.", output},
      .offset = offsetof(job_state, report)},
+    {{"job", "FILE", NULL,
+      "Take options, inputs and output from a JSON file; - is standard input. Of several the "
+      "later wins, and over all of them the command line.",
+      output},
+     .offset = offsetof(job_state, jobs),
+     .repeats = true},
 };
 
 #define OPTIONS .options = options, .option_count = sizeof options / sizeof *options

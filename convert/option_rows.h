@@ -17,6 +17,7 @@ struct wf_option_row {
     double low, high; /* numbers: both allowed */
     const char *what; /* numbers: "field periods, such as 0.5 or 1/3" */
     int base;         /* choices: the value of the first */
+    bool repeats;     /* several may be given */
 };
 
 /* Each stores a value in the member of a job that its row points at, or says what the option

@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "convert/jobfile.h"
 #include "convert/option_rows.h"
 #include "filters/near.h"
 
@@ -92,7 +93,7 @@ static const wf_option_row rows[] = {
         "Write subframes with S samples a pixel, L a line and T a field, not deep pictures.",
         set_oversample, AT(oversample)),
     ROW(scene, "set", "NAME=VALUE", NULL, "A value that the scene reads as param.NAME.",
-        set_param),
+        set_param, .repeats = true),
     ROW(scene, "scene-steps", "N", "200000000", "How many steps the scene's script may take.",
         set_whole, AT(scene_steps), FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
     ROW(scene, "scene-memory", "SIZE", "1G", "How much memory the scene may take.", set_size,
@@ -164,6 +165,16 @@ bool weft_option_at(size_t index, weft_option *out) {
     if (index >= ROWS) return false;
     *out = rows[index].shown;
     return true;
+}
+
+bool wf_option_repeats(size_t index) {
+    return index < ROWS && rows[index].repeats;
+}
+
+void wf_job_clear_flag(weft_job *job, const char *name) {
+    for (size_t i = 0; i < ROWS; i++)
+        if (!rows[i].shown.takes && !strcmp(rows[i].shown.name, name))
+            *(bool *)((char *)job + rows[i].offset) = false;
 }
 
 static weft_status unknown_option(const char *name, weft_error *err) {

@@ -64,6 +64,15 @@ WEFT_API weft_status weft_job_set_output(weft_job *job, const char *path, weft_e
 WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *value,
                                   weft_error *err);
 
+/* Sets what a job file says: JSON, {"inputs": ["shot.####.exr"], "output": "shot.y4m",
+ * "raster": "625i", "overwrite": true, "set": {"speed": 2}}. Keys are the names of options,
+ * "inputs" (replacing those there are), "output" and "command"; values are text, numbers, true
+ * and false for flags, and for options that may be given several times also arrays, or an
+ * object of names and values. Paths are relative to the file's folder; "-" is standard input
+ * and the current folder. What is set later, by another file or weft_job_set, wins. WEFT_USAGE
+ * names file, line and column; the job is then part set and good for weft_job_free only. */
+WEFT_API weft_status weft_job_load(weft_job *job, const char *path, weft_error *err);
+
 /* Progress of weft_job_run, called from the thread that called it, between frames. */
 typedef struct weft_progress {
     int64_t frames_done, frames_total;
