@@ -36,7 +36,11 @@ typedef struct wf_cmd {
 } wf_cmd;
 
 extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
-    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify;
+    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify, wf_cmd_manual,
+    wf_cmd_completion;
+
+/* All of them, by index; NULL past the end. */
+const wf_cmd *wf_cmd_at(size_t index);
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
  * job. Operands are moved to the front of argv; *operand_count says how many. --name value,

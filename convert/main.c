@@ -12,9 +12,14 @@
 
 static const wf_cmd *const commands[] = {&wf_cmd_convert, &wf_cmd_render,    &wf_cmd_trace,
                                          &wf_cmd_measure, &wf_cmd_composite, &wf_cmd_filters,
-                                         &wf_cmd_rasters, &wf_cmd_info,      &wf_cmd_verify};
+                                         &wf_cmd_rasters, &wf_cmd_info,      &wf_cmd_verify,
+                                         &wf_cmd_manual,  &wf_cmd_completion};
 
 #define COMMANDS (sizeof commands / sizeof *commands)
+
+const wf_cmd *wf_cmd_at(size_t index) {
+    return index < COMMANDS ? commands[index] : NULL;
+}
 
 static void help(FILE *to) {
     fprintf(to,
@@ -22,7 +27,7 @@ static void help(FILE *to) {
             "usage: weft COMMAND ...\n\n",
             weft_version());
     for (size_t i = 0; i < COMMANDS; i++)
-        fprintf(to, "  weft %-9s %-27s %s\n", commands[i]->name, commands[i]->operands,
+        fprintf(to, "  weft %-10s %-27s %s\n", commands[i]->name, commands[i]->operands,
                 commands[i]->summary);
     fputs("\nA first conversion, of a render with eight pictures to a field, to 525-line "
           "video:\n\n"

@@ -6,7 +6,7 @@ build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libo
                 libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev
                 liblua5.4-dev libjansson-dev libavformat-dev libavcodec-dev)
 test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
-               openimageio-tools chromium)
+               openimageio-tools chromium mandoc groff-base zsh fish)
 
 # Prints those of the packages named that are not installed.
 missing_packages()

@@ -62,7 +62,9 @@ echo "== Shared library"
 cmake --install "$WEFT_BUILD" --prefix "$TMPDIR/shared" >/dev/null
 use "$TMPDIR/shared" ""
 for file in include/weft.h share/weft/weft.ocio share/doc/weft/LICENSE share/doc/weft/README.md \
-    share/doc/weft/examples/quickstart.sh; do
+    share/doc/weft/examples/quickstart.sh share/man/man1/weft.1 \
+    share/bash-completion/completions/weft share/zsh/site-functions/_weft \
+    share/fish/vendor_completions.d/weft.fish; do
     [ -f "$TMPDIR/shared/$file" ] || { echo "FAILED: $file is not installed"; exit 1; }
 done
 
