@@ -6,7 +6,8 @@ build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libo
                 libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev
                 liblua5.4-dev libjansson-dev libavformat-dev libavcodec-dev)
 test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
-               openimageio-tools chromium mandoc groff-base zsh fish)
+               openimageio-tools chromium mandoc groff-base zsh fish python3-numpy parallel
+               slurmctld slurmd slurm-client iproute2)
 
 # Prints those of the packages named that are not installed.
 missing_packages()
@@ -23,6 +24,23 @@ apt_get()
     local root=()
     [ "$(id -u)" = 0 ] || root=(sudo)
     "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@"
+}
+
+# Runs a command during which packages start no services: tests start their own.
+without_services()
+{
+    local root=() policy=/usr/sbin/policy-rc.d
+    [ "$(id -u)" = 0 ] || root=(sudo)
+    if [ -e $policy ]; then
+        "$@"
+        return
+    fi
+    (
+        trap '"${root[@]}" rm -f $policy' EXIT
+        printf '#!/bin/sh\nexit 101\n' | "${root[@]}" tee $policy >/dev/null
+        "${root[@]}" chmod +x $policy
+        "$@"
+    )
 }
 
 # Installs those of the packages named that are missing. Where that is not possible it says which
@@ -48,11 +66,11 @@ install_packages()
     local package log
     log=$(mktemp)
     apt_get update >"$log" 2>&1
-    if ! apt_get install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
+    if ! without_services apt_get install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
         cat "$log" >&2
         # One that cannot be had must not keep the others away.
         for package in "${missing[@]}"; do
-            apt_get install -y --no-install-recommends "$package" >/dev/null 2>&1
+            without_services apt_get install -y --no-install-recommends "$package" >/dev/null 2>&1
         done
     fi
     rm -f "$log"
