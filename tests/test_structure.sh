@@ -91,7 +91,7 @@ none "C++ is only where a library has no C interface" \
         grep -v -x -E 'convert/oiio\.cpp|color/ocio\.cpp')"
 
 text=$(find CMakeLists.txt README.md LICENSE .clang-format "${folders[@]}" tests examples -type f \
-    ! -path 'tests/fuzz/corpus/*' ! -name '*.png' ! -name '*.exr' ! -name test_structure.sh)
+    ! -path 'tests/fuzz/corpus/*' ! -path '*/__pycache__/*' ! -name '*.png' ! -name '*.exr' ! -name test_structure.sh)
 # shellcheck disable=SC2086
 {
     none "no path of one machine in any file" "$(grep -n -E '(^|[^.A-Za-z])/(work|home|root|Users)/' $text)"

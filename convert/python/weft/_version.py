@@ -1,0 +1,2 @@
+"""The version of libweft that this package is for: that of weft.h."""
+VERSION = "0.1.0"

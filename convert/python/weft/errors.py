@@ -1,0 +1,60 @@
+"""What goes wrong, by weft_status."""
+from __future__ import annotations
+
+import ctypes
+
+from ._library import Error
+
+OK, FAILED, USAGE, DEGRADED, NO_MEMORY, INTERRUPTED = range(6)
+
+
+class WeftError(Exception):
+    """What libweft said: what was wrong, with which file, frame or line, and what would be right.
+
+    `status` is the number of the weft_status.
+    """
+
+    status = FAILED
+
+
+class Failed(WeftError):
+    """An input or output is at fault."""
+
+
+class UsageError(WeftError, ValueError):
+    """The request makes no sense."""
+
+    status = USAGE
+
+
+class NoMemory(WeftError, MemoryError):
+    """An allocation failed, or the option max_memory would not do."""
+
+    status = NO_MEMORY
+
+
+class Canceled(WeftError):
+    """`Job.cancel` was called; nothing half-written is left."""
+
+    status = INTERRUPTED
+
+
+class WeftWarning(UserWarning):
+    """A message that does not stop a job, where the job has no warning callback."""
+
+
+_KINDS = {kind.status: kind for kind in (Failed, UsageError, NoMemory, Canceled)}
+
+
+def check(status: int, error: Error) -> int:
+    """Raises what a status that is a failure stands for; returns OK or DEGRADED."""
+    if status in (OK, DEGRADED):
+        return status
+    text = error.text.decode("utf-8", "replace") or "libweft gave no reason"
+    raise _KINDS.get(status, WeftError)(text)
+
+
+def call(function, *arguments) -> int:
+    """Calls a function of libweft that returns a weft_status and takes a weft_error last."""
+    error = Error()
+    return check(function(*arguments, ctypes.byref(error)), error)

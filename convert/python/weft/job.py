@@ -1,0 +1,239 @@
+"""Conversions as the command line has them."""
+from __future__ import annotations
+
+import json
+import os
+import warnings
+import weakref
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Optional, Union
+
+from ._interrupt import CancelOnInterrupt
+from ._library import PROGRESS_FN, WARNING_FN, lib
+from .errors import DEGRADED, Canceled, NoMemory, UsageError, WeftWarning, call
+from .tables import Option, Raster, options, raster
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run is."""
+
+    frames_done: int
+    frames_total: int
+    seconds: float  #: since the run began
+    stage: str  #: what the job does
+
+
+class Calls:
+    """The Python functions of a handle. What one of them raises waits here until libweft is back,
+    since nothing may be raised through it; until then no function is called any more."""
+
+    def __init__(self):
+        self.raised: Optional[BaseException] = None
+
+    def guard(self, function: Callable, *arguments) -> None:
+        if self.raised is not None:
+            return
+        try:
+            function(*arguments)
+        except BaseException as error:  # KeyboardInterrupt as well
+            self.raised = error
+
+    def release(self) -> None:
+        """Raises what waits."""
+        raised, self.raised = self.raised, None
+        if raised is not None:
+            raise raised
+
+
+def _option_text(option: Optional[Option], value: Any) -> Optional[str]:
+    """A value as the command line would write it; None for a flag that is set."""
+    if isinstance(value, bool):
+        if option is not None and option.takes is not None:
+            return "on" if value else "off"
+        return None
+    if isinstance(value, Raster):
+        return value.name
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if isinstance(value, Fraction):
+        return f"{value.numerator}/{value.denominator}"
+    if isinstance(value, (list, tuple)):
+        return ",".join(_option_text(option, part) or "" for part in value)
+    return str(value)
+
+
+class Job:
+    """One run of weft: inputs, an output and options.
+
+    Job(*inputs, output=None, command="convert", progress=None, warning=None, **options)
+
+    Inputs are files, patterns ("shot.####.exr") or directories; command is "convert", "render" or
+    "trace". Options are those of the command line, with underscores for dashes and a last one where
+    Python reserves the word: Job("in.####.exr", output="out.y4m", subframe_rate="480000/1001",
+    from_="ACEScg", overwrite=True, background=(0, 0, 0)). `weft.options()` lists them. A mapping
+    stands for an option that is given once for each entry: set={"rpm": 75}.
+
+    progress(Progress) is called between frames, warning(str) for messages that do not stop the job;
+    without it they are warnings of the category WeftWarning. What either raises ends the run and
+    comes out of `run`.
+
+    A Job is freed with its last reference, or at the end of a `with` statement.
+    """
+
+    def __init__(self, *inputs: Path, output: Optional[Path] = None, command: str = "convert",
+                 progress: Optional[Callable[[Progress], None]] = None,
+                 warning: Optional[Callable[[str], None]] = None, **options_: Any):
+        handle = lib.weft_job_new()
+        if not handle:
+            raise NoMemory("no memory for a job")
+        self._handle: Optional[int] = handle
+        self._free = weakref.finalize(self, lib.weft_job_free, handle)
+        self._calls = calls = Calls()
+        self._busy = False
+        self._fields: Optional[Callable[[], Any]] = None  # reference to the Fields that are open
+        self._raster: Raster = raster("525i")
+        self._output: Optional[str] = None
+        #: whether the last run was degraded: frames held, samples mended
+        self.degraded = False
+        self._listen(handle, calls, progress, warning)
+        if command != "convert":
+            call(lib.weft_job_set_command, handle, os.fsencode(command))
+        for path in inputs:
+            self.add_input(path)
+        if output is not None:
+            self.output = output
+        for name, value in options_.items():
+            self.set(name, value)
+
+    def _listen(self, handle, calls, progress, warning) -> None:
+        def tell_progress(pointer, _user):
+            p = pointer.contents
+            told = Progress(p.frames_done, p.frames_total, p.seconds, (p.stage or b"").decode())
+            calls.guard(progress, told)
+            if calls.raised is not None:
+                lib.weft_job_cancel(handle)
+
+        def tell_warning(text, _user):
+            calls.guard(warning or (lambda said: warnings.warn(said, WeftWarning, stacklevel=5)),
+                        text.decode("utf-8", "replace"))
+            if calls.raised is not None:
+                lib.weft_job_cancel(handle)
+
+        # Kept for as long as libweft may call them.
+        self._functions = (PROGRESS_FN(tell_progress), WARNING_FN(tell_warning))
+        if progress is not None:
+            lib.weft_job_on_progress(handle, self._functions[0], None)
+        lib.weft_job_on_warning(handle, self._functions[1], None)
+
+    # ---- What it is to do ----
+
+    def _idle(self) -> int:
+        """The handle, for changes."""
+        if self._handle is None:
+            raise UsageError("this job is closed")
+        if self._busy:
+            raise UsageError("this job is running")
+        if self._fields is not None and self._fields() is not None:
+            raise UsageError("this job belongs to Fields that are open; close them first")
+        return self._handle
+
+    def add_input(self, path: Path) -> None:
+        """Adds a file, a pattern or a directory; to render and trace, one scene."""
+        call(lib.weft_job_add_input, self._idle(), os.fsencode(path))
+
+    @property
+    def output(self) -> Optional[str]:
+        """Where the video goes; None: nowhere."""
+        return self._output
+
+    @output.setter
+    def output(self, path: Path) -> None:
+        call(lib.weft_job_set_output, self._idle(), os.fsencode(path))
+        self._output = os.fspath(path)
+
+    @property
+    def raster(self) -> Raster:
+        """What the option raster says."""
+        return self._raster
+
+    def set(self, name: str, value: Any = True) -> None:
+        """Sets an option. Flags take True or False, of which False changes nothing; numbers may be
+        Fractions; lists are joined with commas; None changes nothing."""
+        if value is None:
+            return
+        if isinstance(value, Mapping):
+            for key, one in value.items():
+                self.set(name, f"{key}={_option_text(None, one)}")
+            return
+        name = name.rstrip("_").replace("_", "-")
+        option = next((o for o in options() if o.name == name), None)
+        text = _option_text(option, value)
+        if text is None and value is False:
+            return
+        call(lib.weft_job_set, self._idle(), os.fsencode(name),
+             None if text is None else os.fsencode(text))
+        if name == "raster":
+            self._raster = raster(text)
+
+    # ---- Running ----
+
+    def run(self) -> dict[str, Any]:
+        """Runs the job to its end and returns the report (`weft convert --report`).
+
+        A run in which frames were held or samples mended is no failure: `degraded` and
+        report["degraded"] say so. Failures are raised as WeftError, with no file at the output's
+        name that was not there before; so is Canceled. Ctrl-C ends the run soon and leaves as
+        KeyboardInterrupt. A job that was canceled does not run again.
+        """
+        handle = self._idle()
+        self._busy, self.degraded = True, False
+        interrupt = CancelOnInterrupt(handle)
+        try:
+            with interrupt:
+                self.degraded = call(lib.weft_job_run, handle) == DEGRADED
+        except Canceled:
+            # By a function that raised, or by Ctrl-C, which Python may have told to one already.
+            if self._calls.raised is None:
+                if interrupt.came:
+                    raise KeyboardInterrupt from None
+                raise
+        except BaseException:
+            self._calls.raised = None
+            raise
+        finally:
+            self._busy = False
+        self._calls.release()
+        return self.report
+
+    def cancel(self) -> None:
+        """Asks a running job to stop soon. From any thread."""
+        if self._handle is not None:
+            lib.weft_job_cancel(self._handle)
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """The report of the last run, also of one that failed; {} before."""
+        if self._handle is None:
+            raise UsageError("this job is closed")
+        return json.loads(lib.weft_job_report(self._handle))
+
+    # ---- Life ----
+
+    def close(self) -> None:
+        """Frees the job now. It cannot be used any more."""
+        if self._handle is None:
+            return
+        self._idle()
+        self._handle = None
+        self._free()
+
+    def __enter__(self) -> "Job":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
