@@ -84,6 +84,21 @@ static const wf_delivery_form dv_forms[] = {
              .write = wf_delivery_write,                                                       \
              .commit = wf_delivery_commit,                                                     \
              .abandon = wf_delivery_abandon}
+/* Uncompressed 4:2:2 in MXF, of own make. */
+#define RAW_MXF(codec, about, bits)                                                            \
+    .kind = {.name = codec,                                                                    \
+             .endings = "mxf",                                                                 \
+             .help = about,                                                                    \
+             .layout = WF_YCBCR,                                                               \
+             .bits_mask = BITS(bits),                                                          \
+             .default_bits = bits,                                                             \
+             .fixed_422 = true,                                                                \
+             .check = wf_mxf_sink_check,                                                       \
+             .open = wf_mxf_sink_open,                                                         \
+             .write = wf_mxf_sink_write,                                                       \
+             .commit = wf_mxf_sink_commit,                                                     \
+             .abandon = wf_mxf_sink_abandon},                                                  \
+    .muxer = "mxf", .full_range = true
 #define FORMS(list) .forms = (list), .form_count = COUNT(list)
 
 #define V210   .encoder = "v210", FORMS(any_raster)
@@ -134,6 +149,8 @@ static const wf_delivery rows[] = {
      .audio = "pcm_s24le", .one_audio_stream = true, IMX},
     {KIND("dvcpro50", "mxf", "DV of 50 Mb/s", BITS(8), 8, true), MXF, DVCPRO},
     {KIND("avci100", "mxf", "AVC-Intra 100", BITS(10), 10, true), MXF, AVCI},
+    {RAW_MXF("v210", "uncompressed, 10 bits", 10), FORMS(any_raster)},
+    {RAW_MXF("uyvy", "uncompressed, 8 bits", 8), FORMS(any_raster)},
 
     {KIND("ffv1", "mkv", "FFV1, lossless", BITS(8) | BITS(10) | BITS(12) | BITS(16), 10, false),
      MKV, .encoder = "ffv1", .encoder_options = "level=3:slices=4:slicecrc=1:g=1",

@@ -15,4 +15,18 @@ weft_status wf_delivery_write(wf_sink *sink, const wf_frame *frame, weft_error *
 weft_status wf_delivery_commit(wf_sink *sink, weft_error *err);
 void wf_delivery_abandon(wf_sink *sink);
 
+/* The deliveries of uncompressed 4:2:2 in MXF, which libav cannot write: sink_mxf.c. */
+weft_status wf_mxf_sink_check(const wf_sink_options *options, weft_error *err);
+weft_status wf_mxf_sink_open(const wf_sink_options *options, wf_sink **out, weft_error *err);
+weft_status wf_mxf_sink_write(wf_sink *sink, const wf_frame *frame, weft_error *err);
+weft_status wf_mxf_sink_commit(wf_sink *sink, weft_error *err);
+void wf_mxf_sink_abandon(wf_sink *sink);
+
+/* 4:2:2 frames as bytes: v210 has 10 bits, lines of whole 128 bytes; uyvy has 8 bits. Packing
+ * returns how many bytes were written to `to`, which are those of a frame. */
+size_t wf_v210_bytes(const wf_sink_options *options);
+size_t wf_v210_pack(const wf_sink_options *options, const wf_frame *frame, uint8_t *to);
+size_t wf_uyvy_bytes(const wf_sink_options *options);
+size_t wf_uyvy_pack(const wf_sink_options *options, const wf_frame *frame, uint8_t *to);
+
 #endif

@@ -154,7 +154,7 @@ static size_t v210_line_bytes(const wf_sink_options *o) {
     return ((size_t)o->raster->width_px + 47) / 48 * 128;
 }
 
-static size_t v210_frame_bytes(const wf_sink_options *o) {
+size_t wf_v210_bytes(const wf_sink_options *o) {
     return v210_line_bytes(o) * (size_t)o->raster->lines;
 }
 
@@ -180,7 +180,7 @@ static void put_rest(uint8_t *to, const uint16_t *y, const uint16_t *cb, const u
     put_six(to, l, b, r);
 }
 
-static size_t v210_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
+size_t wf_v210_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
     size_t line_bytes = v210_line_bytes(o);
     int width = o->raster->width_px, whole = width / 6 * 6;
     for (int j = 0; j < o->raster->lines; j++, to += line_bytes) {
@@ -194,16 +194,16 @@ static size_t v210_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t
                      width - whole);
         memset(to + used, 0, line_bytes - used);
     }
-    return v210_frame_bytes(o);
+    return wf_v210_bytes(o);
 }
 
 /* ---- uyvy: 8 bits, Cb Y Cr Y ---- */
 
-static size_t uyvy_frame_bytes(const wf_sink_options *o) {
+size_t wf_uyvy_bytes(const wf_sink_options *o) {
     return 2 * (size_t)o->raster->width_px * (size_t)o->raster->lines;
 }
 
-static size_t uyvy_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
+size_t wf_uyvy_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t *to) {
     for (int j = 0; j < o->raster->lines; j++) {
         const uint16_t *y = line_of(frame, 0, j), *cb = line_of(frame, 1, j),
                        *cr = line_of(frame, 2, j);
@@ -214,7 +214,7 @@ static size_t uyvy_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t
             to[3] = (uint8_t)y[x + 1];
         }
     }
-    return uyvy_frame_bytes(o);
+    return wf_uyvy_bytes(o);
 }
 
 /* ---- null and hash ---- */
@@ -257,8 +257,8 @@ static size_t hash_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t
     }
 
 STREAM(y4m, {.header = y4m_header, .frame_bytes = y4m_frame_bytes, .pack = y4m_pack})
-STREAM(v210, {.frame_bytes = v210_frame_bytes, .pack = v210_pack})
-STREAM(uyvy, {.frame_bytes = uyvy_frame_bytes, .pack = uyvy_pack})
+STREAM(v210, {.frame_bytes = wf_v210_bytes, .pack = wf_v210_pack})
+STREAM(uyvy, {.frame_bytes = wf_uyvy_bytes, .pack = wf_uyvy_pack})
 STREAM(null, {.frame_bytes = nothing_bytes, .pack = nothing, .silent = true})
 STREAM(hash, {.frame_bytes = hash_frame_bytes, .pack = hash_pack, .prefix = "hash:"})
 
