@@ -110,7 +110,7 @@ static const wf_delivery_form dv_forms[] = {
     "dc=10:intra_vlc=1:non_linear_quant=1:qmin=1:seq_disp_ext=always:video_format=component"
 #define XDCAM                                                                                  \
     .encoder = "mpeg2video",                                                                   \
-    .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=12:bf=2:flags=+cgop:"            \
+    .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=12:bf=2:"                        \
                                      "sc_threshold=1000000000:bufsize=36408333:"               \
                                      "rc_max_vbv_use=1:rc_min_vbv_use=1",                      \
     FORMS(xdcam_forms), .pictures_a_group = 12, .constant = true, .threads = 2
