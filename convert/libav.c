@@ -19,7 +19,8 @@ typedef struct reading {
     AVFrame *frame;
     const AVPixFmtDescriptor *pixels;
     int stream;
-    bool have; /* frame holds the next one */
+    int above_lines; /* of the vertical interval, which are no picture */
+    bool have;       /* frame holds the next one */
     bool drained;
     int64_t packets; /* of the stream, read so far */
     double end_s;    /* of the last one */
@@ -127,6 +128,8 @@ static weft_status decode(wf_video *v, weft_error *err) {
 static void label_scan(const reading *r, wf_video_label *label) {
     enum AVFieldOrder order = r->codec->field_order;
     bool unknown = order == AV_FIELD_UNKNOWN, frame_says = r->frame->interlaced_frame;
+    /* The parser of H.264 takes MBAFF for progressive. */
+    if (order == AV_FIELD_PROGRESSIVE && frame_says) unknown = true;
     label->interlaced = unknown ? frame_says : order != AV_FIELD_PROGRESSIVE;
     label->top_first = unknown ? frame_says && r->frame->top_field_first
                                : order == AV_FIELD_TT || order == AV_FIELD_TB;
@@ -183,15 +186,39 @@ static wf_rational ratio_of(AVRational r) {
     return r.num > 0 && r.den > 0 ? wf_ratio(r.num, r.den) : (wf_rational){0, 0};
 }
 
+/* D-10 (SMPTE ST 356) codes the end of the vertical interval with the picture. */
+static int interval_lines(const reading *r) {
+    const AVFrame *f = r->frame;
+    if (r->codec->codec_id != AV_CODEC_ID_MPEG2VIDEO || f->width != 720) return 0;
+    return f->height == 608 ? 32 : f->height == 512 ? 26 : 0;
+}
+
+/* MXF tells the aspect ratio of the picture, which is not quite that of a line of 601. */
+static wf_rational pixel_aspect(const reading *r, int lines) {
+    static const struct {
+        int lines;
+        wf_rational narrow, wide;
+    } rows[] = {
+        {480, {10, 11}, {40, 33}}, {486, {10, 11}, {40, 33}}, {576, {12, 11}, {16, 11}}};
+    const AVFrame *f = r->frame;
+    wf_rational given = ratio_of(f->sample_aspect_ratio);
+    if (strcmp(r->format->iformat->name, "mxf") || f->width != 720) return given;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].lines == lines && wf_ratio_given(given))
+            return wf_ratio_value(given) > 1.15 ? rows[i].wide : rows[i].narrow;
+    return given;
+}
+
 static void describe_stream(wf_video *v, wf_video_label *label) {
-    const reading *r = v->state;
+    reading *r = v->state;
     const AVStream *stream = r->format->streams[r->stream];
     wf_rational average = ratio_of(stream->avg_frame_rate);
     v->info.width_px = r->frame->width;
-    v->info.lines = r->frame->height;
+    r->above_lines = interval_lines(r);
+    v->info.lines = r->frame->height - r->above_lines;
     v->info.frames = stream->nb_frames > 0 ? stream->nb_frames : -1;
     label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
-    label->aspect = ratio_of(r->frame->sample_aspect_ratio);
+    label->aspect = pixel_aspect(r, v->info.lines);
     label_scan(r, label);
     label_color(r, label);
 }
@@ -221,7 +248,8 @@ static void take_frame(wf_video *v) {
     for (int p = 0; p < v->info.planes; p++)
         for (int y = 0; y < v->frame.lines[p]; y++) {
             av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0,
-                                y, p, v->frame.width_px[p], 0, sizeof *r->code);
+                                y + r->above_lines, p, v->frame.width_px[p], 0,
+                                sizeof *r->code);
             wf_video_take_codes(v, p, y, r->code);
         }
 }
@@ -229,7 +257,7 @@ static void take_frame(wf_video *v) {
 static weft_status check_frame(const wf_video *v, weft_error *err) {
     const reading *r = v->state;
     const AVFrame *f = r->frame;
-    if (f->width == v->info.width_px && f->height == v->info.lines &&
+    if (f->width == v->info.width_px && f->height == v->info.lines + r->above_lines &&
         av_pix_fmt_desc_get((enum AVPixelFormat)f->format) == r->pixels)
         return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
