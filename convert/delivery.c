@@ -80,6 +80,7 @@ static const wf_delivery_form dv_forms[] = {
              .default_bits = preset,                                                           \
              .fixed_422 = always_422,                                                          \
              .check = wf_delivery_check,                                                       \
+             .tell = wf_delivery_tell,                                                         \
              .open = wf_delivery_open,                                                         \
              .write = wf_delivery_write,                                                       \
              .commit = wf_delivery_commit,                                                     \
@@ -231,16 +232,10 @@ const wf_delivery *wf_delivery_for(const char *output, const char *codec, bool *
 static const struct {
     wf_rational rate;
     unsigned bit;
-    const char *text;
 } rates[] = {
-    {{24000, 1001}, WF_RATE_23_976, "23.976"},
-    {{24, 1}, WF_RATE_24, "24"},
-    {{25, 1}, WF_RATE_25, "25"},
-    {{30000, 1001}, WF_RATE_29_97, "29.97"},
-    {{30, 1}, WF_RATE_30, "30"},
-    {{50, 1}, WF_RATE_50, "50"},
-    {{60000, 1001}, WF_RATE_59_94, "59.94"},
-    {{60, 1}, WF_RATE_60, "60"},
+    {{24000, 1001}, WF_RATE_23_976}, {{24, 1}, WF_RATE_24}, {{25, 1}, WF_RATE_25},
+    {{30000, 1001}, WF_RATE_29_97},  {{30, 1}, WF_RATE_30}, {{50, 1}, WF_RATE_50},
+    {{60000, 1001}, WF_RATE_59_94},  {{60, 1}, WF_RATE_60},
 };
 
 static bool rate_fits(unsigned taken, wf_rational rate) {
@@ -259,34 +254,40 @@ static bool fits(const wf_delivery_form *form, const wf_raster *r) {
            form->scans & scan_of(r) && rate_fits(form->rates, r->frame_rate);
 }
 
-/* "1920x1080 interlaced top first at 25 or 29.97" */
-static int tell_form(const wf_delivery_form *form, char *text, size_t size) {
-    const char *scan = form->scans == WF_SCAN_WHOLE    ? "progressive"
-                       : form->scans == WF_SCAN_TOP    ? "interlaced top first"
-                       : form->scans == WF_SCAN_BOTTOM ? "interlaced bottom first"
-                                                       : "of any scan";
-    int used = form->width_px
-                   ? snprintf(text, size, "%dx%d %s", form->width_px, form->lines, scan)
-                   : snprintf(text, size, "%s", scan);
-    const char *between = " at ";
-    for (size_t i = 0; i < COUNT(rates); i++) {
-        if (!(form->rates & rates[i].bit) || (size_t)used >= size) continue;
-        used += snprintf(text + used, size - (size_t)used, "%s%s", between, rates[i].text);
-        between = ", ";
+static void tell_form(const wf_delivery_form *form, char *text, size_t size) {
+    snprintf(text, size, "%s",
+             form->scans == WF_SCAN_WHOLE ? "progressive rasters of any size"
+                                          : "rasters of any size and scan");
+}
+
+static const wf_delivery_form *find_form(const wf_delivery *delivery, const wf_raster *raster,
+                                         int bits) {
+    for (size_t i = 0; i < delivery->form_count; i++) {
+        const wf_delivery_form *form = &delivery->forms[i];
+        if ((!form->bits || form->bits == bits) && fits(form, raster)) return form;
     }
-    return used;
+    return NULL;
+}
+
+/* "--raster 525i-dv, 625i-dv", or what any raster has to be. */
+static void tell_rasters(const wf_delivery *delivery, int bits, char *text, size_t size) {
+    const wf_raster *r;
+    size_t used = 0;
+    if (!delivery->forms->width_px) {
+        tell_form(delivery->forms, text, size);
+        return;
+    }
+    *text = '\0';
+    for (size_t i = 0; (r = wf_raster_at(i)) && used < size; i++)
+        if (find_form(delivery, r, bits))
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                     used ? ", " : "--raster ", r->name);
 }
 
 static void refuse_raster(const wf_delivery *delivery, const wf_sink_options *o,
                           weft_error *err) {
-    char there[512] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < delivery->form_count && used < sizeof there; i++) {
-        const wf_delivery_form *form = &delivery->forms[i];
-        if (form->bits && form->bits != o->bits) continue;
-        used += (size_t)snprintf(there + used, sizeof there - used, "%s", used ? "; " : "");
-        used += (size_t)tell_form(form, there + used, sizeof there - used);
-    }
+    char there[512];
+    tell_rasters(delivery, o->bits, there, sizeof there);
     wf_fail(err, WEFT_USAGE, "%.200s: %s of %d bits does not take %s (%dx%d, %s); it takes %s",
             o->output, delivery->kind.name, o->bits, o->raster->name, o->raster->width_px,
             o->raster->lines, wf_raster_order(o->raster), there);
@@ -294,12 +295,9 @@ static void refuse_raster(const wf_delivery *delivery, const wf_sink_options *o,
 
 const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
                                              const wf_sink_options *o, weft_error *err) {
-    for (size_t i = 0; i < delivery->form_count; i++) {
-        const wf_delivery_form *form = &delivery->forms[i];
-        if ((!form->bits || form->bits == o->bits) && fits(form, o->raster)) return form;
-    }
-    refuse_raster(delivery, o, err);
-    return NULL;
+    const wf_delivery_form *form = find_form(delivery, o->raster, o->bits);
+    if (!form) refuse_raster(delivery, o, err);
+    return form;
 }
 
 /* Lines of the frame belong to the fields in turn, the top one to the second field where the

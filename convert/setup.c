@@ -334,6 +334,12 @@ static weft_status make_display(const weft_job *job, wf_setup *s, weft_error *er
     return WEFT_OK;
 }
 
+static void tell_changes(const weft_job *job, const wf_setup *s) {
+    char text[512] = "";
+    if (s->sink->tell) s->sink->tell(&s->sink_options, text, sizeof text);
+    if (*text) wf_job_warn(job, "%s", text);
+}
+
 weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
     s->sink = wf_sink_for(job->output, job->codec, err);
     if (!s->sink) return WEFT_USAGE;
@@ -360,6 +366,7 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .resume = job->resume,
     };
     if (s->sink->check && (status = s->sink->check(&s->sink_options, err))) return status;
+    tell_changes(job, s);
     snprintf(s->color_space, sizeof s->color_space, "%s",
              wf_colors_of(job->raster.matrix)->space);
     s->encoding = (wf_encoding){

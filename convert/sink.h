@@ -51,6 +51,8 @@ typedef struct wf_sink_kind {
     bool fixed_422;  /* 4:2:2 is the only sampling it takes */
     /* Whether it takes all of that, before anything is read; NULL: it does. */
     weft_status (*check)(const wf_sink_options *options, weft_error *err);
+    /* What it will change without being asked to, for people; "": nothing. NULL: nothing. */
+    void (*tell)(const wf_sink_options *options, char *text, size_t size);
     weft_status (*open)(const wf_sink_options *options, wf_sink **out, weft_error *err);
     weft_status (*write)(wf_sink *sink, const wf_frame *frame, weft_error *err);
     weft_status (*commit)(wf_sink *sink,

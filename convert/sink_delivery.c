@@ -1,5 +1,6 @@
 /* Outputs in containers: what is asked for is held against the table of deliveries here, and
  * written by the libav module. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,6 +45,19 @@ weft_status wf_delivery_check(const wf_sink_options *o, weft_error *err) {
                    "without: install libavformat-dev and libavcodec-dev and build it again, or "
                    "write .y4m, .v210 or an image sequence",
                    o->output);
+}
+
+void wf_delivery_tell(const wf_sink_options *o, char *text, size_t size) {
+    const wf_delivery *d = delivery_of(o);
+    const wf_delivery_form *form = wf_delivery_form_for(d, o, NULL);
+    *text = '\0';
+    if (!form || !form->kept_lines) return;
+    wf_raster kept = wf_delivery_raster(form, o->raster);
+    snprintf(text, size,
+             "%.200s: %s takes %d lines: of %s, %d above and %d below are dropped, and what is "
+             "left is %s",
+             o->output, d->kind.name, form->kept_lines, o->raster->name, form->skip_lines,
+             o->raster->lines - form->kept_lines - form->skip_lines, wf_raster_order(&kept));
 }
 
 weft_status wf_delivery_open(const wf_sink_options *o, wf_sink **out, weft_error *err) {

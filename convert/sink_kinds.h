@@ -10,6 +10,7 @@ extern const wf_sink_kind wf_sink_exr, wf_sink_dpx, wf_sink_tiff, wf_sink_png;
 
 /* What all deliveries (convert/delivery.h) are driven by: sink_delivery.c. */
 weft_status wf_delivery_check(const wf_sink_options *options, weft_error *err);
+void wf_delivery_tell(const wf_sink_options *options, char *text, size_t size);
 weft_status wf_delivery_open(const wf_sink_options *options, wf_sink **out, weft_error *err);
 weft_status wf_delivery_write(wf_sink *sink, const wf_frame *frame, weft_error *err);
 weft_status wf_delivery_commit(wf_sink *sink, weft_error *err);
