@@ -287,23 +287,44 @@ static int most_open(const wf_pipeline *p) {
     return pictures < 1 ? 1 : pictures > MOST_OPEN ? MOST_OPEN : (int)pictures;
 }
 
+/* The next subframes from k on that fields from *field to end need. */
+static void collect(batch *b, int64_t *field, int64_t *k, int most) {
+    while (*field < b->end && b->count < most) {
+        wf_window window = wf_resampler_window(b->p->setup->resampler, *field);
+        if (*k < window.first) *k = window.first;
+        if (*k >= window.first + window.count)
+            ++*field;
+        else
+            b->k[b->count++] = (*k)++;
+    }
+}
+
 weft_status wf_batch_read(wf_pipeline *p, int64_t first, int64_t end, weft_error *err) {
-    const wf_resampler *rs = p->setup->resampler;
     int most = most_open(p);
     int64_t k = p->next_subframe;
     weft_status status = WEFT_OK;
     for (int64_t field = first; field < end && !status;) {
         batch b = {.p = p, .end = end, .fields = p->active};
-        while (field < end && b.count < most) {
-            wf_window window = wf_resampler_window(rs, field);
-            if (k < window.first) k = window.first;
-            if (k >= window.first + window.count)
-                field++;
-            else
-                b.k[b.count++] = k++;
-        }
+        collect(&b, &field, &k, most);
         if (b.count) status = run_batch(&b, end, err);
     }
     if (p->carried_most) p->next_subframe = k;
     return status;
+}
+
+void wf_batch_foresee(wf_pipeline *p, int64_t first, int64_t end, bool *needed) {
+    const wf_subframe_ref *refs = p->setup->sequence.refs;
+    int most = most_open(p);
+    int64_t k = p->next_subframe;
+    for (int64_t field = first; field < end;) {
+        batch b = {.p = p, .end = end};
+        collect(&b, &field, &k, most);
+        for (int i = 0; i < b.count; i++) {
+            const wf_subframe_ref *shown = shown_at(p, b.k[i]);
+            if (!shown->path) continue;
+            needed[shown - refs] = true;
+            p->opened += !i || shown != shown_at(p, b.k[i - 1]);
+        }
+    }
+    if (p->carried_most) p->next_subframe = k;
 }

@@ -8,6 +8,7 @@
 
 #include "convert/cmd.h"
 #include "convert/fail.h"
+#include "convert/job.h"
 #include "convert/jobfile.h"
 #include "convert/outfile.h"
 
@@ -148,7 +149,10 @@ static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     wf_cmd_ignore_signals(); /* the job is about to be freed, and what is left takes no time */
     wf_meter_clear(&state->meter);
     bool finished = status == WEFT_OK || status == WEFT_DEGRADED;
-    if (finished) say_done(state);
+    if (finished && !job->plan) say_done(state);
+    if (finished && job->plan && !state->quiet &&
+        (!state->report || strcmp(state->report, "-")))
+        fputs(job->plan, stdout);
     if (!state->report) return status;
     weft_status written = write_report(state->report, job, finished ? err : NULL);
     return finished && written ? written : status;
@@ -210,9 +214,9 @@ static const char notes[] =
 #define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
 
 static const char *const convert_takes[] = {
-    OUTPUT_SIDE,     FIELDS,          "fit",      "input-par", "background",
-    "subframe-rate", "subframe-time", "frames",   "layer",     "part",
-    "on-missing",    "fix-nan",       "on-empty", RUNNING,     NULL};
+    OUTPUT_SIDE,     FIELDS,   "fit",     "input-par", "background", "subframe-rate",
+    "subframe-time", "frames", "layer",   "part",      "on-missing", "fix-nan",
+    "on-empty",      RUNNING,  "dry-run", NULL};
 
 const wf_cmd wf_cmd_convert = {
     .name = "convert",

@@ -52,6 +52,8 @@ weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, vo
         return wf_fail(err, WEFT_USAGE,
                        "--cadence is for subframes and scenes, not for samples that are handed "
                        "over, whose times count fields");
+    if (job->dry_run)
+        return wf_fail(err, WEFT_USAGE, "--dry-run is for weft_job_run: samples are pushed");
     weft_fields *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
     *f = (weft_fields){.job = job, .fn = fn, .user = user};

@@ -17,9 +17,9 @@ weft_job *weft_job_new(void) {
 
 void weft_job_free(weft_job *job) {
     if (!job) return;
-    char *const texts[] = {job->output,   job->frames, job->layer,      job->part, job->ocio,
-                           job->from,     job->to,     job->display,    job->view, job->look,
-                           job->timecode, job->report, job->oversample, job->codec};
+    char *const texts[] = {job->output,   job->frames, job->layer,      job->part,  job->ocio,
+                           job->from,     job->to,     job->display,    job->view,  job->look,
+                           job->timecode, job->report, job->oversample, job->codec, job->plan};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);
     for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
     for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);
@@ -133,6 +133,7 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "--error is for render: samples that are written are as many everywhere"},
         {job->command == WF_TRACE && job->separate_fields,
          "--fields is for pictures of fields, and trace stores samples; give it to convert"},
+        {job->dry_run && job->command != WF_CONVERT, "--dry-run is for weft convert"},
         {!job->input_count,
          "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
          "directory"},

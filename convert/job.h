@@ -76,6 +76,7 @@ struct weft_job {
     bool skip;              /* --skip on */
     size_t max_memory_bytes;
     bool overwrite, resume;
+    bool dry_run;
 
     weft_progress_fn *progress;
     void *progress_user;
@@ -84,6 +85,7 @@ struct weft_job {
     volatile sig_atomic_t cancelled;
     _Atomic int64_t legal_pixels, legal_touched, legal_outside; /* of r103, in the last run */
     char *report;                                               /* JSON of the last run */
+    char *plan; /* of a dry run, for people; NULL: there is none */
 };
 
 /* "convert", "render", "trace". */

@@ -149,6 +149,8 @@ static const wf_option_row rows[] = {
         INITIAL),
     ROW(running, "max-memory", "SIZE", "2G", "How much memory to use at most, such as 512M.",
         set_size, AT(max_memory_bytes), INITIAL),
+    ROW(running, "dry-run", NULL, NULL, "Tell what would be done, and write nothing.", set_flag,
+        AT(dry_run)),
     ROW(running, "overwrite", NULL, NULL, "Replace an output that exists.", set_flag,
         AT(overwrite)),
     ROW(running, "resume", NULL, NULL, "Make only what is not there yet.", set_flag,

@@ -74,12 +74,13 @@ static weft_status make_worker(wf_pipeline *p, wf_worker *worker, weft_error *er
 }
 
 /* What a run holds at most, but for the libraries' own needs. */
-static weft_status check_memory(const wf_pipeline *p, weft_error *err) {
+static weft_status check_memory(wf_pipeline *p, weft_error *err) {
     const wf_resampler *rs = p->setup->resampler;
     size_t bytes = (size_t)p->group_most * wf_resampler_field_bytes(rs, false) +
                    (size_t)p->carried_most * wf_resampler_field_bytes(rs, true) +
                    (size_t)p->threads * wf_scratch_bytes(rs, p->group_most + p->carried_most);
     bytes += wf_frames_bytes(p->job, p->setup, p->group_most);
+    p->bytes = bytes;
     if (bytes <= p->job->max_memory_bytes) return WEFT_OK;
     return wf_fail(
         err, WEFT_NO_MEMORY,
@@ -198,6 +199,14 @@ weft_status wf_pipeline_frames(wf_pipeline *p, int64_t first, int64_t end, weft_
         n = group_end;
     }
     return WEFT_OK;
+}
+
+void wf_pipeline_foresee(wf_pipeline *p, int64_t first, int64_t end, bool *needed) {
+    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
+    int64_t past = end * per_frame;
+    p->next_subframe = 0;
+    for (int64_t n = first * per_frame; n < past; n += p->group_most)
+        wf_batch_foresee(p, n, n + p->group_most < past ? n + p->group_most : past, needed);
 }
 
 wf_source_counts wf_pipeline_counts(const wf_pipeline *p) {

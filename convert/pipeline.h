@@ -37,6 +37,7 @@ typedef struct wf_pipeline {
     int flight_count;
     int64_t end_field; /* of the frames in hand: nothing later is put in flight */
     int64_t opened;
+    size_t bytes; /* that all of it holds at most, but for the libraries' own needs */
 } wf_pipeline;
 
 weft_status wf_pipeline_new(weft_job *job, const wf_setup *setup, wf_pipeline **out,
@@ -47,6 +48,10 @@ void wf_pipeline_free(wf_pipeline *pipeline);
 weft_status wf_pipeline_frames(wf_pipeline *pipeline, int64_t first, int64_t end,
                                weft_error *err);
 
+/* Counts as `opened` what wf_pipeline_frames would open, and marks the subframes of which it
+ * would read something: needed[sequence.count]. Opens nothing. */
+void wf_pipeline_foresee(wf_pipeline *pipeline, int64_t first, int64_t end, bool *needed);
+
 /* What the workers counted and how long they took, added up. */
 wf_source_counts wf_pipeline_counts(const wf_pipeline *pipeline);
 wf_worker wf_pipeline_times(const wf_pipeline *pipeline);
@@ -56,6 +61,8 @@ wf_worker wf_pipeline_times(const wf_pipeline *pipeline);
 /* Reads the subframes that fields first <= n < end need and adds them to these fields, and to
  * the later ones they already touch where fields are carried. */
 weft_status wf_batch_read(wf_pipeline *pipeline, int64_t first, int64_t end, weft_error *err);
+
+void wf_batch_foresee(wf_pipeline *pipeline, int64_t first, int64_t end, bool *needed);
 
 /* Takes line `line` of a field through colour into its frame. */
 void wf_pipeline_finish_line(wf_pipeline *pipeline, wf_worker *worker, const wf_field *field,

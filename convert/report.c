@@ -122,6 +122,7 @@ char *wf_report_json(const wf_report *report) {
     add_seconds(&json, report);
     wf_json_int(&json, "peak_memory_bytes", peak ? peak : wf_peak_memory_bytes());
     wf_json_bool(&json, "degraded", report->degraded);
+    if (report->add_plan) report->add_plan(&json, report->plan);
     wf_json_text(&json, "error", report->error);
     return wf_json_finish(&json);
 }

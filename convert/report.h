@@ -35,6 +35,8 @@ typedef struct wf_report {
     double error_estimate; /* RMS, display-encoded; 0: none was made */
 
     wf_report_legal legal;
+    void (*add_plan)(wf_json *json, const void *plan); /* of a dry run; NULL: of none */
+    void *plan;
     double trace_s; /* of all threads together, as the others but wall are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */

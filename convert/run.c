@@ -4,6 +4,7 @@
 
 #include "convert/collide.h"
 #include "convert/deep_source.h"
+#include "convert/foresee.h"
 #include "convert/pipeline.h"
 #include "convert/render.h"
 
@@ -130,13 +131,15 @@ static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
                                              : "they are the means of their neighbours");
 }
 
-static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, bool *degraded,
-                             weft_error *err) {
+static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p,
+                             wf_report *report, weft_error *err) {
+    bool *degraded = &report->degraded;
     if (job->resume && !s->sink->sequence && wf_sink_present(s->sink, job->output, -1))
         return WEFT_OK;
     weft_status status = wf_refuse_own_inputs(job, s, err);
     if (!status) status = face_missing(job, s, degraded, err);
     if (!status) status = wf_pipeline_new(job, s, p, err);
+    if (!status && job->dry_run) return wf_foresee(*p, report, err);
     if (!status) status = run_with_sink(*p, err);
     if (!status) tell_mended(job, wf_pipeline_counts(*p).nan_fixed, degraded);
     return status;
@@ -145,6 +148,11 @@ static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p, 
 static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
     wf_setup setup = {0};
     wf_pipeline *pipeline = NULL;
+    if (wf_takes_samples(job) && job->dry_run)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: --dry-run is for subframes, and these are sample "
+                       "buffers",
+                       job->inputs[0]);
     if (wf_takes_samples(job)) {
         if (job->cadence == WF_CADENCE_NONE) return wf_run_samples(job, report, err);
         return wf_fail(err, WEFT_USAGE,
@@ -153,7 +161,7 @@ static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err
                        job->inputs[0]);
     }
     weft_status status = wf_setup_make(job, &setup, err);
-    if (!status) status = run_setup(job, &setup, &pipeline, &report->degraded, err);
+    if (!status) status = run_setup(job, &setup, &pipeline, report, err);
     tell(job, &setup, pipeline, report);
     wf_pipeline_free(pipeline);
     wf_setup_free(&setup);
@@ -189,9 +197,11 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     if (!status) status = runs[job->command](job, &report, err);
     if (!status) tell_outside(job);
     report.wall_s = wf_now_s() - start;
+    if (job->dry_run) report.frames = report.fields = 0;
     report.error = status ? err->text : NULL;
     free(job->report);
     job->report = wf_report_json(&report);
     free(report.missing);
+    wf_foreseen_free(report.plan);
     return status ? status : report.degraded ? WEFT_DEGRADED : WEFT_OK;
 }

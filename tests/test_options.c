@@ -256,7 +256,7 @@ static void names_that_are_none(void **state) {
         const char *name, *means;
     } cases[] = {{"rastr", "--raster?"},         {"temporal_width", "--temporal-width?"},
                  {"overwirte", "--overwrite?"},  {"sample", "unknown option"},
-                 {"dry-run", "unknown option"},  {"", "unknown option"},
+                 {"dry-walk", "unknown option"}, {"", "unknown option"},
                  {"--raster", "unknown option"}, {"RASTER", "unknown option"}};
     weft_job *job = new_job();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
