@@ -22,8 +22,9 @@ typedef struct wf_raster {
     wf_matrix matrix;
     /* First picture lines of fields 1 and 2, and all lines; 0 where there is no map. */
     int line1, line2, total_lines;
-    /* Fields (progressive: frames) show film, 2 of them for each 5 in the order 2:3:2:3, so that
-     * frames are AA BB BC CD DD. Never set by wf_raster_parse; not for segmented frames. */
+    /* Fields (progressive: frames) show film, 2 of them for each 5 in the order 2:3:2:3, so
+     * that frames are AA BB BC CD DD. Never set by wf_raster_parse; not for segmented frames.
+     */
     bool pulldown;
 } wf_raster;
 

@@ -17,15 +17,15 @@ recovers()
 # shellcheck disable=SC2086
 video() { weft render "$scene" $small "$@"; }
 
-check "film" video --raster 180x122@23.976p --frames 0-23 -o film.y4m
+check "film" video --raster 180x122@23.976p --frames 0-15 -o film.y4m
 for order in bff tff; do
-    check "pulldown, $order" video --cadence 2:3 --raster 180x122@29.97i,$order --frames 0-29 -o $order.y4m
+    check "pulldown, $order" video --cadence 2:3 --raster 180x122@29.97i,$order --frames 0-19 -o $order.y4m
     check "$order is measured" weft measure $order.y4m --limit order.verdict=telecined
     has ffmpeg && check "ffmpeg's inverse gives the film, $order" recovers $order.y4m $order film.y4m
 done
 
 check "renders without skipping are the same" video --cadence 2:3 --raster 180x122@29.97i,bff \
-    --frames 0-29 --skip off --chunk 2/3 -o part2.y4m
+    --frames 0-19 --skip off --chunk 2/2 -o part2.y4m
 check "chunks are the run" cmp part2.y4m <(body bff.y4m | tail -c +$((10 * (180 * 122 * 2 + 6) + 1)) |
     head -c $((10 * (180 * 122 * 2 + 6))))
 
