@@ -39,7 +39,7 @@ static void read_video(const AVStream *s, wf_claims *c) {
     c->pixel_aspect =
         ratio_of(s->sample_aspect_ratio.num ? s->sample_aspect_ratio : p->sample_aspect_ratio);
     read_scan(p->field_order, c);
-    c->tags = (wf_color_tags){p->color_primaries, p->color_trc, p->color_space};
+    c->tags = (wf_color_tags){(int)p->color_primaries, (int)p->color_trc, (int)p->color_space};
     c->tagged = p->color_primaries != AVCOL_PRI_UNSPECIFIED &&
                 p->color_trc != AVCOL_TRC_UNSPECIFIED &&
                 p->color_space != AVCOL_SPC_UNSPECIFIED;
