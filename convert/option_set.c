@@ -3,9 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/delivery.h"
 #include "convert/option_rows.h"
 #include "convert/range.h"
 #include "convert/values.h"
+#include "filters/near.h"
 
 static void *member(weft_job *job, const wf_option_row *row) {
     return (char *)job + row->offset;
@@ -236,7 +238,23 @@ weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *va
     int tracks = 0;
     bool none = !strcmp(value, "none");
     if (!none && (sscanf(value, "silent:%2d%c", &tracks, &rest) != 1 || tracks < 1))
-        return refuse(row, value, "none, or silent:N with N tracks from 1 to 16", err);
+        return refuse(row, value, "one of none|silent:N, N being the number of tracks, 1 to 16", err);
     job->silent_tracks = tracks;
     return WEFT_OK;
+}
+
+weft_status wf_set_codec(weft_job *job, const wf_option_row *row, const char *value,
+                         weft_error *err) {
+    char there[256];
+    wf_near near = {.text = value};
+    const wf_delivery *d;
+    for (size_t i = 0; (d = wf_delivery_at(i)); i++) {
+        if (!strcmp(d->kind.name, value)) return wf_set_text(job, row, value, err);
+        wf_near_offer(&near, d->kind.name);
+    }
+    if (near.best)
+        return wf_fail(err, WEFT_USAGE, "--codec: '%.100s' is unknown; did you mean %s?", value,
+                       near.best);
+    wf_delivery_codecs(there, sizeof there);
+    return refuse(row, value, there, err);
 }

@@ -130,7 +130,7 @@ static const wf_option_row rows[] = {
     ROW(files, "codec", "NAME", "the container's",
         "What .mov, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, ffv1 and others; a "
         "wrong name lists them.",
-        set_text, AT(codec)),
+        set_codec, AT(codec)),
     ROW(files, "audio", "none|silent:N", "none",
         "Silent tracks of sound in .mov, .mxf and .mkv: 24 bits, 48 kHz.", set_audio, INITIAL),
     ROW(files, "fields", "woven|separate", "woven",
