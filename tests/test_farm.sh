@@ -16,7 +16,7 @@ for ((k = 0; k < 96; k++)); do
 done
 from=("in put" --subframe-rate 480000/1001 --raster "360x244@30000/1001i,bff")
 mkdir single farmed
-for output in "a b.y4m" a.v210 "f.####.dpx" "p%02d.png"; do
+for output in "a b.y4m" a.v210 "f.%03d.dpx"; do
     check "$output" exits 0 weft convert "${from[@]}" -o "single/$output"
 done
 
@@ -27,7 +27,7 @@ in_parts()
     for i in 2 3 1; do "$farm/chunk.sh" $i 3 "farmed/$1" "${from[@]}" || return; done
     "$farm/join.sh" 3 "farmed/$1" "${from[@]}"
 }
-for output in "a b.y4m" a.v210 "f.####.dpx" "p%02d.png"; do
+for output in "a b.y4m" a.v210 "f.%03d.dpx"; do
     check "$output in parts" exits 0 in_parts "$output"
 done
 check "parts are the whole" diff -r single farmed
@@ -99,7 +99,7 @@ SCRIPT
     cp single/f.0*.dpx whole
     export REAL=$WEFT
     WEFT=$work/dying
-    check "parallel with a death" exits 0 "$farm/parallel.sh" 3 "frames/f.####.dpx" "${from[@]}"
+    check "parallel with a death" exits 0 "$farm/parallel.sh" 3 "frames/f.%03d.dpx" "${from[@]}"
     check "it died" test -d died
     check "all frames are there, and right" diff -r frames whole
     check "braces" exits 2 "$farm/parallel.sh" 3 "{x}.y4m" "${from[@]}"
