@@ -200,6 +200,19 @@ class Jobs(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(Path("py.y4m").read_bytes(), Path("c.y4m").read_bytes(), options)
 
+    def test_load(self):
+        Path("job.json").write_text('{"inputs": ["in.####.exr"], "output": "loaded.y4m", "overwrite": true,\n'
+                                    f'"raster": "{SMALL}", "bits": 8}}')
+        job = weft.Job()
+        job.load("job.json")
+        self.assertEqual((job.raster.lines, job.output), (24, "loaded.y4m"))
+        job.run()
+        self.job(output="unloaded.y4m", bits=8).run()
+        self.assertEqual(Path("loaded.y4m").read_bytes(), Path("unloaded.y4m").read_bytes())
+        Path("bad.json").write_text('{"rastr": "525i"}')
+        with self.assertRaisesRegex(weft.UsageError, "bad.json"):
+            weft.Job().load("bad.json")
+
     def test_render_with_params(self):
         scene = Path("scene.lua")
         scene.write_text("camera{eye={0, 2, 6}, look_at={0, 1, 0}}\nlight{point={4, 8, 5}}\n"

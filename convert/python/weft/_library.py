@@ -71,6 +71,7 @@ FUNCTIONS = {
     "weft_job_add_input": (_STATUS, _HANDLE, c_char_p, _ERROR),
     "weft_job_set_output": (_STATUS, _HANDLE, c_char_p, _ERROR),
     "weft_job_set": (_STATUS, _HANDLE, c_char_p, c_char_p, _ERROR),
+    "weft_job_load": (_STATUS, _HANDLE, c_char_p, _ERROR),
     "weft_job_on_progress": (None, _HANDLE, PROGRESS_FN, c_void_p),
     "weft_job_on_warning": (None, _HANDLE, WARNING_FN, c_void_p),
     "weft_job_run": (_STATUS, _HANDLE, _ERROR),

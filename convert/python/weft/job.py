@@ -180,6 +180,20 @@ class Job:
         if name == "raster":
             self._raster = raster(text)
 
+    def load(self, path: Path) -> None:
+        """Sets what a job file says (JSON; see `weft convert --help`). Paths in it are relative to its
+        folder; what is set later wins. UsageError names file, line and column, after which the job
+        is good for nothing but `close`."""
+        if os.fspath(path) == "-":
+            raise UsageError("a job is loaded from a file here, not from standard input")
+        call(lib.weft_job_load, self._idle(), os.fsencode(path))
+        with open(path, encoding="utf-8") as file:
+            said = json.load(file)
+        if "raster" in said:
+            self._raster = raster(said["raster"])
+        if "output" in said:
+            self._output = os.path.join(os.path.dirname(os.fspath(path)), said["output"])
+
     # ---- Running ----
 
     def run(self) -> dict[str, Any]:
