@@ -150,6 +150,7 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     bool exists = !stat(path, &about), is_y4m = false;
     if (exists ? S_ISDIR(about.st_mode) : wf_sequence_is_pattern(path))
         return tell_sequence(path, facts, err);
+    if (wf_info_is_video(path)) return wf_info_video(path, facts, err);
     weft_status status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
     wf_fact_text(facts, "kind", "picture");
@@ -213,11 +214,11 @@ const wf_cmd wf_cmd_info = {
     .name = "info",
     .operands = "FILE...",
     .summary = "what a file or a sequence is",
-    .text =
-        "Tells what inputs and outputs say of themselves, without decoding a pixel: pictures,\n"
-        "sequences (with the numbers that are missing), Y4M video.\n"
-        "\n"
-        "  weft info shot.####.exr out.y4m\n",
+    .text = "Tells what inputs and outputs say of themselves: pictures, sequences (with the "
+            "numbers\n"
+            "that are missing), Y4M, and video that libav reads (.mov, .mxf, .mkv ..).\n"
+            "\n"
+            "  weft info shot.####.exr out.y4m\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .job_options = no_job_options,

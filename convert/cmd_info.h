@@ -21,4 +21,8 @@ void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char bet
  */
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err);
 
+/* Video in containers: whether a name says so, and what it is. Its first frame is decoded. */
+bool wf_info_is_video(const char *path);
+weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err);
+
 #endif

@@ -174,9 +174,8 @@ static const char output[] = "Output and messages";
 
 static const wf_cmd_option options[] = {
     {{"output", "OUTPUT", NULL,
-      "Where to write: .y4m, .v210, .uyvy, or a sequence such as out.####.dpx (exr, tif, png); "
-      "- is "
-      "Y4M on standard output.",
+      "Where to write: .y4m, .v210, .uyvy, .mov, .mxf, .mkv, or a sequence such as out.####.dpx "
+      "(exr, tif, png); - is Y4M on standard output.",
       output},
      .letter = 'o',
      .offset = offsetof(job_state, output)},

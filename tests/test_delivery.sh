@@ -72,6 +72,17 @@ while read -r file codec raster _; do
     check "$codec of $raster in $file" right "$file"
 done <matrix
 
+# ---- Read back ----
+
+# known FILE RASTER: what weft makes of it.
+known() { exits 0 weft info "$1" --json && value "d['files'][0]['raster'] == '$2'"; }
+check "raster of v210" known 525i.mov 525i
+check "of DV, in the order of its own" known dv.mov 525i-dv
+check "of DV in MXF" known dv.mxf 625i-dv
+check "of D-10, without the interval's lines" known imx525.mxf 525i-imx
+check "of XDCAM" known xdcam.mov 1080i59.94
+check "of FFV1" known 525i.mkv 525i
+
 # ---- Codes survive ----
 
 # same_codes A B: the decoded codes of two files are equal, bit for bit.
