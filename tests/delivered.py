@@ -38,6 +38,14 @@ def raster_of(name):
     return [lines * 16 // 9, lines, rate, "", F(1), (1, 1, 1), (42, 0) if lines == 1080 else (26, 0)]
 
 
+def frame_of(timecode, base):
+    """Frames since midnight: drop frame leaves out two labels of 30 in every minute but each tenth."""
+    hours, minutes, seconds, frames = map(int, re.split("[:;]", timecode))
+    minutes += 60 * hours
+    dropped = (minutes - minutes // 10) * base // 15 if ";" in timecode else 0
+    return (minutes * 60 + seconds) * base + frames - dropped
+
+
 def run(*command):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     return done.stdout, done.stderr
@@ -223,6 +231,7 @@ def main():
             if kind == 0x14:
                 same("timecode base", number(clock[0x1502]), -int(-rate // 1))
                 same("drop frame", number(clock[0x1503]), int(";" in timecode))
+                same("timecode's frame", number(clock[0x1501]), frame_of(timecode, -int(-rate // 1)))
         if codec == "imx50":
             same("bytes of pictures", set(elements[0x05]), {250000 if coded == 608 else 208540})
         if groups and codec != "imx50":
