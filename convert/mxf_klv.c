@@ -19,7 +19,7 @@ static bool make_room(wf_bytes *b, size_t more) {
 }
 
 void wf_bytes_put(wf_bytes *b, const void *data, size_t size) {
-    if (!make_room(b, size)) return;
+    if (!size || !make_room(b, size)) return;
     memcpy(b->data + b->size, data, size);
     b->size += size;
 }
