@@ -238,7 +238,7 @@ weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *va
     int tracks = 0;
     bool none = !strcmp(value, "none");
     if (!none && (sscanf(value, "silent:%2d%c", &tracks, &rest) != 1 || tracks < 1))
-        return refuse(row, value, "one of none|silent:N, N being the number of tracks, 1 to 16", err);
+        return refuse(row, value, "one of none|silent:N, with N tracks from 1 to 16", err);
     job->silent_tracks = tracks;
     return WEFT_OK;
 }
