@@ -19,8 +19,7 @@ typedef struct reading {
     AVFrame *frame;
     const AVPixFmtDescriptor *pixels;
     int stream;
-    int above_lines; /* of the vertical interval, which are no picture */
-    bool have;       /* frame holds the next one */
+    bool have; /* frame holds the next one */
     bool drained;
     int64_t packets; /* of the stream, read so far */
     double end_s;    /* of the last one */
@@ -210,12 +209,12 @@ static wf_rational pixel_aspect(const reading *r, int lines) {
 }
 
 static void describe_stream(wf_video *v, wf_video_label *label) {
-    reading *r = v->state;
+    const reading *r = v->state;
     const AVStream *stream = r->format->streams[r->stream];
     wf_rational average = ratio_of(stream->avg_frame_rate);
     v->info.width_px = r->frame->width;
-    r->above_lines = interval_lines(r);
-    v->info.lines = r->frame->height - r->above_lines;
+    v->info.interval_lines = interval_lines(r);
+    v->info.lines = r->frame->height - v->info.interval_lines;
     v->info.frames = stream->nb_frames > 0 ? stream->nb_frames : -1;
     label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
     label->aspect = pixel_aspect(r, v->info.lines);
@@ -248,7 +247,7 @@ static void take_frame(wf_video *v) {
     for (int p = 0; p < v->info.planes; p++)
         for (int y = 0; y < v->frame.lines[p]; y++) {
             av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0,
-                                y + r->above_lines, p, v->frame.width_px[p], 0,
+                                y + v->info.interval_lines, p, v->frame.width_px[p], 0,
                                 sizeof *r->code);
             wf_video_take_codes(v, p, y, r->code);
         }
@@ -257,7 +256,7 @@ static void take_frame(wf_video *v) {
 static weft_status check_frame(const wf_video *v, weft_error *err) {
     const reading *r = v->state;
     const AVFrame *f = r->frame;
-    if (f->width == v->info.width_px && f->height == v->info.lines + r->above_lines &&
+    if (f->width == v->info.width_px && f->height == v->info.lines + v->info.interval_lines &&
         av_pix_fmt_desc_get((enum AVPixelFormat)f->format) == r->pixels)
         return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,

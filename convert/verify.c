@@ -91,7 +91,7 @@ static wf_verdict check_raster(const subject *s, wf_finding *f) {
 static wf_verdict check_size(const subject *s, wf_finding *f) {
     char is[32], should[32];
     const wf_video_info *v = &s->figures.info;
-    snprintf(is, sizeof is, "%dx%d", v->width_px, v->lines);
+    snprintf(is, sizeof is, "%dx%d", v->width_px, v->lines + v->interval_lines);
     snprintf(should, sizeof should, "%dx%d", s->raster.width_px, s->coded_lines);
     return say(f, !strcmp(is, should), is, should);
 }
@@ -359,12 +359,6 @@ static void take_profile_raster(subject *s, const char *said) {
     s->raster_known = wf_raster_parse(name, &s->raster, why, sizeof why);
 }
 
-/* Files of D-10 hold lines of the vertical interval; their raster is known by their number. */
-static const char *raster_of_lines(const wf_video_info *v) {
-    if (v->width_px != 720) return NULL;
-    return v->lines == 608 ? "625i" : v->lines == 512 ? "525i-imx" : NULL;
-}
-
 /* A raster of the table that is like the file in everything but its order. */
 static const char *raster_but_for_order(const wf_raster *said) {
     const wf_raster *r;
@@ -384,12 +378,10 @@ static void take_said_raster(subject *s) {
     if (s->contained && s->claims.scan_known && !s->claims.interlaced)
         s->raster.scan = WF_PROGRESSIVE;
     bool made_up = strchr(v->raster.name, '@') || s->raster.scan != v->raster.scan;
-    const char *coded = raster_of_lines(v);
     const char *near = made_up ? raster_but_for_order(&s->raster) : NULL;
-    const char *name = coded ? coded : near ? near : made_up ? NULL : v->raster.name;
+    const char *name = near ? near : made_up ? NULL : v->raster.name;
     s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why)
                            : v->scan_known || s->claims.scan_known;
-    if (coded) s->coded_lines = v->lines;
 }
 
 static void find_raster(subject *s) {
@@ -401,7 +393,7 @@ static void find_raster(subject *s) {
         take_profile_raster(s, s->raster_known ? s->raster.name : "");
         s->coded_lines = s->profile->coded_lines;
     }
-    if (!s->coded_lines) s->coded_lines = s->raster.lines;
+    if (!s->coded_lines) s->coded_lines = s->raster.lines + s->figures.info.interval_lines;
 }
 
 /* Y4M, raw files and pictures say no more than what measuring has seen. */

@@ -17,8 +17,9 @@ typedef struct wf_video_options {
 typedef struct wf_video_info {
     char format[96]; /* for people: "Y4M 422p10" */
     int width_px, lines;
-    wf_layout layout; /* WF_LINEAR: EXR; WF_RGB: other pictures */
-    int bits;         /* of a code; 32: floats; 16 for pictures of unknown depth */
+    int interval_lines; /* of the vertical interval, coded above these and not read (D-10) */
+    wf_layout layout;   /* WF_LINEAR: EXR; WF_RGB: other pictures */
+    int bits;           /* of a code; 32: floats; 16 for pictures of unknown depth */
     bool full_range;
     int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
     wf_transfer transfer; /* of the display it is made for */
