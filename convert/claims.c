@@ -8,7 +8,7 @@
 weft_status wf_claims_read(const char *path, wf_claims *claims, weft_error *err) {
     void *symbol;
     wf_libav_claims_fn *ask;
-    *claims = (wf_claims){.frames = -1, .frame_layout = -1};
+    *claims = (wf_claims){.frames = -1, .frame_layout = -1, .dominance = -1, .siting = -1};
     if (!wf_module_built("libav"))
         return wf_fail(err, WEFT_FAILED,
                        "%.700s: containers are read through libav, which this weft was built "

@@ -20,15 +20,20 @@ typedef struct wf_claims {
     int64_t frames;    /* -1: not said */
     double video_s;    /* how long the video is; 0: not said */
     char timecode[32]; /* of the first frame, as it is written; "": none */
+    int timecode_base; /* labels a second, of QuickTime's and MXF's; 0: not said */
+    bool timecode_drop;
     int sound_streams, sound_channels, sound_rate, sound_bits;
     double sound_s; /* the shortest of them; 0: not said */
 
     bool has_fiel, has_pasp, has_colr, has_clap; /* QuickTime's atoms */
     int fiel[2];
+    int64_t clean[2]; /* width and lines of clap, in 65536ths */
 
     bool has_line_map; /* MXF */
     int line_map[2];
     int frame_layout;   /* -1: none */
+    int dominance;      /* the field that is first in time; -1: none */
+    int siting;         /* of chroma; -1: none */
     wf_rational aspect; /* of the picture; {0, 0}: none */
     char pattern[8];    /* "OP1a"; "": no header */
 } wf_claims;

@@ -6,6 +6,7 @@
 
 #define DEEPEST      8
 #define ENTRY_BYTES  86 /* of a video sample description before its extensions */
+#define TIMECODE_AT  12 /* of the flags in the body of its entry */
 #define DESCRIPTIONS 8  /* version, flags and count of stsd */
 
 typedef struct atom {
@@ -35,42 +36,82 @@ static bool is(const atom *a, const char *name) {
     return !memcmp(a->name, name, 4);
 }
 
+static bool read_at(FILE *file, int64_t at, void *value, size_t bytes) {
+    return !fseeko(file, (off_t)at, SEEK_SET) && fread(value, bytes, 1, file) == 1;
+}
+
+/* A size is a ratio of two numbers. */
+static int64_t clean_size(const uint8_t *ratio) {
+    uint64_t num = wf_big_endian(ratio, 4), den = wf_big_endian(ratio + 4, 4);
+    return den ? (int64_t)((num << 16) / den) : 0;
+}
+
 static void read_extensions(FILE *file, int64_t at, int64_t end, wf_claims *claims) {
     for (atom a; next_atom(file, at, end, &a); at = a.next) {
-        uint8_t value[2];
+        uint8_t value[16];
+        int64_t bytes = a.next - a.body;
         claims->has_pasp |= is(&a, "pasp");
         claims->has_colr |= is(&a, "colr");
-        claims->has_clap |= is(&a, "clap");
-        if (!is(&a, "fiel") || fseeko(file, (off_t)a.body, SEEK_SET) ||
-            fread(value, sizeof value, 1, file) != 1)
-            continue;
-        claims->has_fiel = true;
-        claims->fiel[0] = value[0];
-        claims->fiel[1] = value[1];
+        if (is(&a, "fiel") && bytes >= 2 && read_at(file, a.body, value, 2)) {
+            claims->has_fiel = true;
+            claims->fiel[0] = value[0];
+            claims->fiel[1] = value[1];
+        }
+        if (is(&a, "clap") && bytes >= 32 && read_at(file, a.body, value, sizeof value)) {
+            claims->has_clap = true;
+            for (int i = 0; i < 2; i++) claims->clean[i] = clean_size(value + 8 * i);
+        }
     }
 }
 
-/* Whether a media atom's handler is of video. */
-static bool is_video(FILE *file, int64_t at, int64_t end) {
-    char kind[4] = "";
-    for (atom a; next_atom(file, at, end, &a); at = a.next)
-        if (is(&a, "hdlr") && !fseeko(file, (off_t)a.body + 8, SEEK_SET))
-            return fread(kind, sizeof kind, 1, file) == 1 && !memcmp(kind, "vide", 4);
-    return false;
+/* The description of timecode: flags, time scale, length of a frame, labels a second. */
+static void read_timecode(FILE *file, const atom *entry, wf_claims *claims) {
+    uint8_t value[13];
+    if (!is(entry, "tmcd") || entry->next - entry->body < TIMECODE_AT + (int)sizeof value ||
+        claims->timecode_base || !read_at(file, entry->body + TIMECODE_AT, value, sizeof value))
+        return;
+    claims->timecode_drop = value[3] & 1;
+    claims->timecode_base = value[12];
 }
 
-static void descend(FILE *file, int64_t at, int64_t end, int depth, wf_claims *claims) {
+typedef enum kind { OTHER, VIDEO, TIMECODE } kind;
+
+/* By the handler of a media atom. */
+static kind kind_of(FILE *file, int64_t at, int64_t end) {
+    char name[4] = "";
+    for (atom a; next_atom(file, at, end, &a); at = a.next)
+        if (is(&a, "hdlr") && read_at(file, a.body + 8, name, sizeof name))
+            return !memcmp(name, "vide", 4)   ? VIDEO
+                   : !memcmp(name, "tmcd", 4) ? TIMECODE
+                                              : OTHER;
+    return OTHER;
+}
+
+typedef struct place {
+    int64_t at, end;
+    int depth;
+    kind of; /* the track */
+} place;
+
+static void read_description(FILE *file, const atom *stsd, kind of, wf_claims *claims) {
+    atom entry;
+    if (!next_atom(file, stsd->body + DESCRIPTIONS, stsd->next, &entry)) return;
+    if (of == TIMECODE) read_timecode(file, &entry, claims);
+    if (of == VIDEO) read_extensions(file, entry.body + ENTRY_BYTES - 8, entry.next, claims);
+}
+
+static void descend(FILE *file, place p, wf_claims *claims) {
     static const char inner[][5] = {"moov", "trak", "mdia", "minf", "stbl"};
-    for (atom a, entry; depth < DEEPEST && next_atom(file, at, end, &a); at = a.next) {
+    for (atom a; p.depth < DEEPEST && next_atom(file, p.at, p.end, &a); p.at = a.next) {
         bool goes_in = false;
         for (size_t i = 0; i < sizeof inner / sizeof *inner; i++) goes_in |= is(&a, inner[i]);
-        if (is(&a, "mdia") && !is_video(file, a.body, a.next)) goes_in = false;
-        if (is(&a, "stsd") && next_atom(file, a.body + DESCRIPTIONS, a.next, &entry))
-            read_extensions(file, entry.body + ENTRY_BYTES - 8, entry.next, claims);
-        if (goes_in) descend(file, a.body, a.next, depth + 1, claims);
+        if (is(&a, "mdia")) p.of = kind_of(file, a.body, a.next);
+        if (is(&a, "stsd")) read_description(file, &a, p.of, claims);
+        if (goes_in) descend(file, (place){a.body, a.next, p.depth + 1, p.of}, claims);
     }
 }
 
 void wf_claims_mov(FILE *file, wf_claims *claims) {
-    if (!fseeko(file, 0, SEEK_END)) descend(file, 0, (int64_t)ftello(file), 0, claims);
+    if (!fseeko(file, 0, SEEK_END))
+        descend(file, (place){0, (int64_t)ftello(file), 0, OTHER}, claims);
 }

@@ -4,9 +4,10 @@
 #include "convert/claims.h"
 #include "convert/klv.h"
 
-#define SET_MOST   8192
-#define SETS_MOST  4096 /* triplets of a header before its essence */
-#define PATTERN_AT 64   /* of the label in a partition pack's value */
+#define SET_MOST     8192
+#define SETS_MOST    4096 /* triplets of a header before its essence */
+#define TIMECODE_SET 0x14
+#define PATTERN_AT   64 /* of the label in a partition pack's value */
 
 static void read_picture(const uint8_t *set, size_t bytes, wf_claims *claims) {
     size_t length, at = wf_klv_item(set, bytes, WF_MXF_LINE_MAP, &length);
@@ -17,10 +18,23 @@ static void read_picture(const uint8_t *set, size_t bytes, wf_claims *claims) {
     }
     at = wf_klv_item(set, bytes, WF_MXF_FRAME_LAYOUT, &length);
     if (length == 1) claims->frame_layout = set[at];
+    at = wf_klv_item(set, bytes, WF_MXF_DOMINANCE, &length);
+    if (length == 1) claims->dominance = set[at];
+    at = wf_klv_item(set, bytes, WF_MXF_SITING, &length);
+    if (length == 1) claims->siting = set[at];
     at = wf_klv_item(set, bytes, WF_MXF_ASPECT, &length);
     if (length == 8 && wf_big_endian(set + at + 4, 4))
         claims->aspect = wf_ratio((int64_t)wf_big_endian(set + at, 4),
                                   (int64_t)wf_big_endian(set + at + 4, 4));
+}
+
+/* The first is the material package's, which is what plays. */
+static void read_timecode(const uint8_t *set, size_t bytes, wf_claims *claims) {
+    size_t length, at = wf_klv_item(set, bytes, WF_MXF_BASE, &length);
+    if (length != 2 || claims->timecode_base) return;
+    claims->timecode_base = (int)wf_big_endian(set + at, 2);
+    at = wf_klv_item(set, bytes, WF_MXF_DROP, &length);
+    claims->timecode_drop = length == 1 && set[at];
 }
 
 /* The label's item complexity and package complexity: 1 and 1 are OP1a. */
@@ -59,9 +73,12 @@ void wf_claims_mxf(FILE *file, wf_claims *claims) {
         if (fseeko(file, (off_t)k.next, SEEK_SET)) return;
         size_t got = fread(head, 1, sizeof head, file);
         if (!wf_klv_parse(head, got, k.next, &k) || is_essence(k.key)) return;
-        bool pack = is_partition(k.key), picture = wf_klv_is_picture(wf_klv_set_kind(k.key));
-        size_t bytes = pack || picture ? read_value(file, &k, value) : 0;
+        int kind = wf_klv_set_kind(k.key);
+        bool pack = is_partition(k.key), picture = wf_klv_is_picture(kind);
+        bool timecode = kind == TIMECODE_SET;
+        size_t bytes = pack || picture || timecode ? read_value(file, &k, value) : 0;
         if (pack && bytes) read_pattern(value, bytes, claims);
         if (picture && bytes) read_picture(value, bytes, claims);
+        if (timecode && bytes) read_timecode(value, bytes, claims);
     }
 }

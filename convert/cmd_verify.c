@@ -26,8 +26,9 @@ static void print_findings(const char *path, const wf_verification *v) {
            v->profile ? ", " : "", v->profile ? v->profile->name : "");
     for (size_t i = 0; i < v->count; i++) {
         const wf_finding *f = &v->finding[i];
-        printf("  %-6s %-10s %s%s%s\n", verdicts[f->verdict], f->check, f->is,
-               *f->should ? "; it should be: " : "", f->should);
+        printf("  %-6s %-10s %s", verdicts[f->verdict], f->check, f->is);
+        if (f->verdict == WF_WRONG) printf("; it should be: %s (%s)", f->should, f->by);
+        putchar('\n');
     }
 }
 
@@ -47,6 +48,7 @@ static void add_findings(wf_json *json, const char *path, const wf_verification 
         wf_json_text(json, "verdict", words[f->verdict]);
         wf_json_text(json, "is", f->is);
         wf_json_text(json, "should", *f->should ? f->should : NULL);
+        wf_json_text(json, "by", f->by);
         wf_json_close(json);
     }
     wf_json_close(json);

@@ -21,6 +21,11 @@ typedef struct wf_container_facts {
 weft_status wf_container_mend(wf_outfile *file, const wf_container_facts *facts,
                               weft_error *err);
 
+/* The part of a 601 line that is the 4:3 or 16:9 picture, as Apple's Technical Note TN2162 has
+ * it: 704 of 720 pixels, and 480 of the 486 lines. Where pixels are of another shape somebody
+ * else's reckoning makes the whole line the picture. Other rasters are all picture. */
+void wf_clean_aperture(const wf_raster *raster, uint32_t *width, uint32_t *lines);
+
 /* The same for QuickTime alone (container_mov.c). */
 weft_status wf_container_mend_mov(wf_outfile *file, const wf_container_facts *facts,
                                   weft_error *err);

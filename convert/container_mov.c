@@ -33,10 +33,7 @@ static bool is(const uint8_t *atom, const char *type) {
 
 /* ---- The picture ---- */
 
-/* The part of a 601 line that is the 4:3 or 16:9 picture, as Apple's Technical Note TN2162 has
- * it: 704 of 720 pixels, and 480 of the 486 lines. Where pixels are of another shape somebody
- * else's reckoning makes the whole line the picture. */
-static void clean_aperture(const wf_raster *r, uint32_t *width, uint32_t *lines) {
+void wf_clean_aperture(const wf_raster *r, uint32_t *width, uint32_t *lines) {
     static const wf_rational shapes[] = {{10, 11}, {40, 33}, {12, 11}, {16, 11}};
     bool narrow = false;
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
@@ -82,7 +79,7 @@ static void put_shape(atoms *a) {
 
 static void put_aperture(atoms *a) {
     uint32_t width, lines;
-    clean_aperture(a->facts->raster, &width, &lines);
+    wf_clean_aperture(a->facts->raster, &width, &lines);
     uint8_t *value = begin(a, "clap", 40);
     const uint32_t ratios[] = {width, 1, lines, 1, 0, 1, 0, 1}; /* size, and from the center */
     for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++) set32(value + 4 * i, ratios[i]);
@@ -147,7 +144,7 @@ static void copy_descriptions(atoms *a, size_t at, size_t end) {
 /* The clean aperture's size as it is shown: 16.16 fixed point. */
 static void put_shown(uint8_t *clef, const wf_raster *r) {
     uint32_t width, lines;
-    clean_aperture(r, &width, &lines);
+    wf_clean_aperture(r, &width, &lines);
     double shown = width * wf_ratio_value(r->pixel_aspect) * 65536;
     set32(clef + 12, (uint32_t)(shown + 0.5));
     set32(clef + 16, lines << 16);

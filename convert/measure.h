@@ -49,6 +49,7 @@ typedef struct wf_figures {
     const char *order_verdict;      /* NULL: a single frame has no order */
     double order_ratio;             /* total variation in time, bottom first over top first */
     double range_share, r103_share; /* of the picture outside them */
+    double reserved_share; /* of the picture, with codes that are kept for synchronization */
     /* Against the reference; samples as shares of the largest code, so that PSNR has the peak
      * that is customary. */
     double rmse, psnr, ssim;

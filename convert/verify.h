@@ -14,8 +14,10 @@ typedef struct wf_profile {
     const char *rasters;      /* one, or several with blanks between */
     const char *start;        /* timecode of the first frame */
     int bits;
-    int sound_channels; /* the least */
-    int coded_lines;    /* with the vertical interval; 0: the raster's */
+    int sound_channels;   /* the least */
+    const char *channels; /* one of these numbers, with blanks between */
+    int sound_bits;
+    int coded_lines; /* with the vertical interval; 0: the raster's */
 } wf_profile;
 
 /* By index; NULL past the end. */
@@ -29,6 +31,7 @@ typedef struct wf_finding {
     const char *check;
     wf_verdict verdict;        /* WF_OPEN: the file gives no answer */
     char is[160], should[160]; /* for people; should "": as it is */
+    char by[96];               /* what demands it */
 } wf_finding;
 
 #define WF_FINDINGS_MOST 32

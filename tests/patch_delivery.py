@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""patch_delivery.py FROM TO KIND NAME OFFSET BYTES: a copy of a file with hexadecimal BYTES written over.
+KIND atom: at OFFSET of the body of the last QuickTime atom of this name. KIND item: at OFFSET of the value of MXF's item of this tag (hexadecimal), in every
+set of picture descriptors, and for tags 15.. in every timecode component. KIND label: of the operational
+pattern in every partition."""
+import sys
+
+SET = bytes.fromhex("060e2b34025301010d01010101")
+PARTITION = bytes.fromhex("060e2b34020501010d01020101")
+
+
+def atoms(data, name, offset):
+    at = data.rindex(name.encode())
+    return [at + 4 + offset]
+
+
+def triplets(data):
+    at = 0
+    while at + 17 <= len(data):
+        length, value = data[at + 16], at + 17
+        if length & 0x80:
+            value += length & 0x7F
+            length = int.from_bytes(data[at + 17 : value], "big")
+        yield data[at : at + 16], value, length
+        at = value + length
+
+
+def items(data, name, offset):
+    tag = int(name, 16)
+    kinds = (0x14,) if tag >> 8 == 0x15 else (0x27, 0x28, 0x29, 0x51)
+    for key, value, length in triplets(data):
+        end, at = value + length, value
+        while key.startswith(SET) and key[14] in kinds and at + 4 <= end:
+            size = int.from_bytes(data[at + 2 : at + 4], "big")
+            if int.from_bytes(data[at : at + 2], "big") == tag:
+                yield at + 4 + offset
+            at += 4 + size
+
+
+def labels(data, _, offset):
+    for key, value, _ in triplets(data):
+        if key.startswith(PARTITION) and 2 <= key[13] <= 4:
+            yield value + 64 + offset
+
+
+source, target, kind, name, offset, new = sys.argv[1:]
+data, new = bytearray(open(source, "rb").read()), bytes.fromhex(new)
+places = list({"atom": atoms, "item": items, "label": labels}[kind](bytes(data), name, int(offset)))
+if not places:
+    sys.exit(f"{source} has no {name}")
+for at in places:
+    data[at : at + len(new)] = new
+open(target, "wb").write(data)
