@@ -205,7 +205,8 @@ static wf_verdict check_siting(const wf_subject *s, wf_finding *f) {
     char is[16];
     if (s->claims.siting < 0) return open_question(f, "not said");
     snprintf(is, sizeof is, "%d", s->claims.siting);
-    return say(f, s->claims.siting == 0, is, "0, with the first luma sample of a pair");
+    bool right = s->claims.siting == 0 || s->claims.siting == 4; /* 4: as Rec. 601 has it */
+    return say(f, right, is, "0, with the first luma sample of a pair");
 }
 
 static bool of_601(const wf_raster *r) {

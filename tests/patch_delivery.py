@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """patch_delivery.py FROM TO KIND NAME OFFSET BYTES: a copy of a file with hexadecimal BYTES written over.
-KIND atom: at OFFSET of the body of the last QuickTime atom of this name. KIND item: at OFFSET of the value of MXF's item of this tag (hexadecimal), in every
+KIND atom: at OFFSET of the body of the last QuickTime atom of this name, or with a + before it the first. KIND item: at OFFSET of the value of MXF's item of this tag (hexadecimal), in every
 set of picture descriptors, and for tags 15.. in every timecode component. KIND label: of the operational
 pattern in every partition."""
 import sys
@@ -10,7 +10,10 @@ PARTITION = bytes.fromhex("060e2b34020501010d01020101")
 
 
 def atoms(data, name, offset):
-    at = data.rindex(name.encode())
+    if name[0] == "+":
+        at = data.index(name[1:].encode(), data.rindex(b"moov"))
+    else:
+        at = data.rindex(name.encode())
     return [at + 4 + offset]
 
 

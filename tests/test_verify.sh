@@ -71,15 +71,16 @@ ffmpeg_made -i p.mov -map 0:v -c copy -timecode 10:00:00:00 p.mkv
 check "container" only container p.mkv --profile prores-1080i50
 check "prores of 525" made p5.mov --codec prores --raster 525i --timecode "01:00:00;00"
 check "codec" only codec p5.mov --profile v210-525
-check "raster" only raster f.mkv --profile no-such || :
 check "size" only size y.y4m --raster 720x574@25i,tff,par=12:11,601-625
 check "rate" only rate y.y4m --raster 720x576@30i,tff,par=12:11,601-625
-sed '1s/ It / Ib /' y.y4m >order.y4m
-check "flags" only flags order.y4m --raster 625i
-check "order" only order order.y4m --raster 625i-dv
+sed '1s/ It / Ib /' y.y4m >flags.y4m
+check "flags" only flags flags.y4m --raster 625i
+check "bottom first" made n.y4m --raster 525i
+sed '1s/ Ib / It /' n.y4m >order.y4m
+check "order" only order order.y4m --raster 720x486@29.97i,tff,par=10:11,601-525
 check "aspect" only aspect a.mov --raster 525i-wide
 check "colors" wrong colors a.mov atom colr 4 000100010001
-check "fiel" wrong fiel a.mov atom fiel 0 0209 --raster 525i
+check "fiel" wrong fiel a.mov atom fiel 0 0206 --raster 525i
 check "atoms" wrong atoms p.mov atom pasp -4 66726565
 check "clap" wrong clap a.mov atom clap 0 000002d0
 check "pattern" wrong pattern i.mxf label - 13 02
@@ -90,5 +91,64 @@ check "siting" wrong siting i.mxf item 3303 0 03
 check "aspect of MXF" wrong aspect i.mxf item 320e 0 0000001000000009
 check "base" wrong base i.mxf item 1502 0 0019
 check "base of QuickTime" wrong base p.mov atom tmcd 24 1e
-check "start" only start x.mxf --profile as11-uk-dpp-hd || :
+check "frames" wrong frames p.mov atom +stts 8 00000003
+
+# y4m FILE HEADER LUMA PIXEL: a frame of flat 8-bit luma, whose first pixel is another.
+y4m()
+{
+    python3 - "$@" <<'END'
+import sys
+name, header, luma, pixel = sys.argv[1:]
+frame = bytearray([int(luma)] * (720 * 576) + [128] * (720 * 576))
+frame[0] = int(pixel)
+open(name, "wb").write(f"YUV4MPEG2 W720 H576 {header} C422\n".encode() + (b"FRAME\n" + frame) * 2)
+END
+}
+y4m levels.y4m "F25:1 It A12:11" 250 250
+check "levels" only levels levels.y4m
+y4m reserved.y4m "F25:1 It A12:11" 100 255
+check "reserved" only reserved reserved.y4m
+y4m raster.y4m "F24:1 I? A12:11" 100 100
+check "raster" only raster raster.y4m
+y4m still.y4m "F25:1 It A12:11" 100 100
+check "a still has no order" right still.y4m
+check "which is said" eval "prints 'open   order'"
+
+# What others made and joined.
+check "v210 of 1080" made h.mov --codec v210 --raster 1080i50 --timecode 10:00:00:00
+ffmpeg_made -i h.mov -map 0:v -c copy -timecode 10:00:00:00 copied.mov
+check "ffmpeg's copy is right" right copied.mov --profile v210-1080i
+ffmpeg_made -i h.mov -map 0:v -c copy -write_tmcd 0 timecode.mov
+check "timecode" only timecode timecode.mov
+ffmpeg_made -i h.mov -f lavfi -t 1 -i anullsrc=r=48000 -map 0:v -map 1 -c:v copy -c:a pcm_s24le -timecode 10:00:00:00 sound.mov
+check "sound" only sound sound.mov
+ffmpeg_made -i x.mxf -map 0 -c:v copy -c:a pcm_s16le -timecode 10:00:00:00 bits.mxf
+check "sound bits" only "sound bits" bits.mxf --profile as-hdf01a
+ffmpeg_made -i x.mxf -map 0:v -map 0:a:0 -map 0:a:1 -c copy -timecode 10:00:00:00 channels.mxf
+check "channels" only channels channels.mxf --profile as-hdf01a
+
+if ffmpeg -hide_banner -encoders 2>/dev/null | grep -q libx264; then
+    check "AVC-Intra" made v.mxf --codec avci100 --raster 1080i50 --timecode 10:00:00:00 --audio silent:4
+    check "is right" right v.mxf --profile as11-uk-dpp-hd
+    check "start" wrong start v.mxf item 1501 0 0000000000000000 --profile as11-uk-dpp-hd
+    ffmpeg_made -i v.mxf -map 0 -c:a copy -c:v libx264 -profile:v high422 -pix_fmt yuv422p -flags +ildct+ilme -top 1 \
+        -color_primaries 1 -color_trc 1 -colorspace 1 -timecode 10:00:00:00 8.mxf
+    check "bits" wrong bits 8.mxf item 3303 0 00 --profile as11-uk-dpp-hd
+    check "tracks of AVC-Intra" made t.mxf --codec avci100 --raster 1080i50 --timecode 10:00:00:00 --audio silent:2
+    check "tracks" only tracks t.mxf --profile as11-uk-dpp-hd
+else
+    skipped=$((skipped + 1))
+    echo "skipped: AVC-Intra, as there is no libx264"
+fi
+
+# ---- The command ----
+
+check "the profiles" exits 0 weft verify --profiles
+check "are listed" prints xdcamhd422-1080i50
+check "nothing to verify" exits 2 weft verify
+check "an unknown profile" exits 2 weft verify a.mov --profile v210-526
+check "is guessed" says "did you mean v210-525"
+check "an unknown raster" exits 2 weft verify a.mov --raster 526i
+check "no such file" only reading none.mov
+check "one of two is wrong" exits 1 weft verify a.mov flags.y4m --raster 625i
 finish
