@@ -57,7 +57,7 @@ static const wf_delivery_form avci_forms[] = {
 static const wf_delivery_form imx_forms[] = {
     {SIZE(720, 576), SCAN(TOP, WF_RATE_25), TABLE(8, 50), .above_lines = 32},
     {SIZE(720, 486), SCAN(TOP, WF_RATE_29_97), .bit_rate = 49999601, .stated_rate = 49999840,
-     .above_lines = 26},
+     .above_lines = 26, .options = "rc_init_occupancy=1668321:bufsize=1668321"},
 };
 
 /* SMPTE ST 314 takes lines from 23 and 285 of 525 and from 23 and 335 of 625: bottom first. */
@@ -111,7 +111,7 @@ static const wf_delivery_form dv_forms[] = {
     "dc=10:intra_vlc=1:non_linear_quant=1:qmin=1:seq_disp_ext=always:video_format=component"
 #define XDCAM                                                                                  \
     .encoder = "mpeg2video",                                                                   \
-    .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=12:bf=2:"                        \
+    .encoder_options = MPEG2_OPTIONS ":profile=0:level=2:qmax=28:bf=2:"                        \
                                      "sc_threshold=1000000000:bufsize=36408333:"               \
                                      "rc_max_vbv_use=1:rc_min_vbv_use=1",                      \
     FORMS(xdcam_forms), .pictures_a_group = 12, .constant = true, .threads = 2

@@ -147,6 +147,29 @@ silent() { ffmpeg -nostdin -v error -i "$1" -map 0:a -f s24le - | tr -d '\0' | w
 check "silence in MXF" silent s.mxf
 check "silence in QuickTime" silent s.mov
 
+# ---- Pictures that are hard to code ----
+
+# steady KIND CODEC RASTER BYTES: every frame has this size, whatever is in it.
+steady()
+{
+    local sizes
+    exits 0 weft convert "$1" --subframe-rate 60 --fit stretch --aperture box --temporal-width 0 -q --overwrite \
+        --codec "$2" --raster "$3" -o steady.mxf || return 1
+    sizes=$(ffprobe -v error -select_streams v -show_entries packet=size -of csv=p=0 steady.mxf | tr -d , | sort -u)
+    [ "$sizes" = "$4" ] || { echo "frames of $sizes bytes, not $4"; return 1; }
+}
+if has oiiotool; then
+    mkdir noise black
+    for i in 0 1 2 3 4 5 6 7; do
+        oiiotool --pattern noise:type=uniform:seed=$i:min=0:max=1 720x576 3 -d half -o noise/s.000$i.exr
+        oiiotool --create 64x64 3 -d half -o black/s.000$i.exr
+    done
+    for kind in noise black; do
+        check "$kind in D-10 of 525 lines" steady $kind imx50 525i-imx 208540
+        check "$kind in D-10 of 625 lines" steady $kind imx50 625i 250000
+    done
+fi
+
 # ---- The same again ----
 
 again()
