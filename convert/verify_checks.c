@@ -92,8 +92,7 @@ static wf_verdict check_raster(const wf_subject *s, wf_finding *f) {
 static wf_verdict check_size(const wf_subject *s, wf_finding *f) {
     char is[32], should[32];
     const wf_video_info *v = &s->figures.info;
-    bool interval = s->coded_lines != s->raster.lines && s->contained;
-    snprintf(is, sizeof is, "%dx%d", v->width_px, interval ? s->claims.lines : v->lines);
+    snprintf(is, sizeof is, "%dx%d", v->width_px, v->lines + v->interval_lines);
     snprintf(should, sizeof should, "%dx%d", s->raster.width_px, s->coded_lines);
     return say(f, !strcmp(is, should), is, should);
 }
