@@ -91,7 +91,7 @@ check "siting" wrong siting i.mxf item 3303 0 03
 check "aspect of MXF" wrong aspect i.mxf item 320e 0 0000001000000009
 check "base" wrong base i.mxf item 1502 0 0019
 check "base of QuickTime" wrong base p.mov atom tmcd 24 1e
-check "frames" wrong frames p.mov atom +stts 8 00000003
+check "frames" wrong frames p.mov atom +stts 8 00000001
 
 # y4m FILE HEADER LUMA PIXEL: a frame of flat 8-bit luma, whose first pixel is another.
 y4m()
