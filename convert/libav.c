@@ -199,9 +199,10 @@ static wf_rational pixel_aspect(const reading *r, int lines) {
         wf_rational narrow, wide;
     } rows[] = {
         {480, {10, 11}, {40, 33}}, {486, {10, 11}, {40, 33}}, {576, {12, 11}, {16, 11}}};
-    const AVFrame *f = r->frame;
-    wf_rational given = ratio_of(f->sample_aspect_ratio);
-    if (strcmp(r->format->iformat->name, "mxf") || f->width != 720) return given;
+    AVStream *stream = r->format->streams[r->stream];
+    /* The container's word counts before the codec's, which may have none. */
+    wf_rational given = ratio_of(av_guess_sample_aspect_ratio(r->format, stream, r->frame));
+    if (strcmp(r->format->iformat->name, "mxf") || r->frame->width != 720) return given;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].lines == lines && wf_ratio_given(given))
             return wf_ratio_value(given) > 1.15 ? rows[i].wide : rows[i].narrow;
