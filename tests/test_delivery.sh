@@ -58,7 +58,7 @@ make_one()
     shift 3
     [ "$codec" != avci100 ] || [ -n "$have_x264" ] || return 0
     timeout 250 "$WEFT" convert in --subframe-rate 400 --aperture box --temporal-width 0 --threads 1 -q -o "$file" \
-        --codec "$codec" --raster "$raster" "$@" >"$file.said" 2>&1 && delivered "$file" "$codec" "$raster" >>"$file.said" 2>&1
+        --codec "$codec" --raster "$raster" "$@" >"$file.said" 2>&1 && delivered "$file" "$codec" "$raster" >>"$file.said" 2>&1 && "$WEFT" verify "$file" >>"$file.said" 2>&1
     echo $? >"$file.rc"
 }
 export -f make_one delivered
