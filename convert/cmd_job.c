@@ -174,7 +174,8 @@ static const char output[] = "Output and messages";
 
 static const wf_cmd_option options[] = {
     {{"output", "OUTPUT", NULL,
-      "Where to write: .y4m, .v210, .uyvy, .mov, .mxf, .mkv, or a sequence such as out.####.dpx "
+      "Where to write: .y4m, .v210, .uyvy, .mov, .mxf, .mkv, or a sequence such as "
+      "out.####.dpx "
       "(exr, tif, png); - is Y4M on standard output.",
       output},
      .letter = 'o',
@@ -209,13 +210,13 @@ static const char notes[] =
         "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
         "chroma", "legalize", "dither", "codec", "audio"
 #define FIELDS  "cadence", "fields"
-#define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume"
+#define RUNNING "chunk", "threads", "skip", "max-memory", "overwrite", "resume", "dry-run"
 #define SCENE   "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
 
 static const char *const convert_takes[] = {
-    OUTPUT_SIDE,     FIELDS,   "fit",     "input-par", "background", "subframe-rate",
-    "subframe-time", "frames", "layer",   "part",      "on-missing", "fix-nan",
-    "on-empty",      RUNNING,  "dry-run", NULL};
+    OUTPUT_SIDE,     FIELDS,          "fit",      "input-par", "background",
+    "subframe-rate", "subframe-time", "frames",   "layer",     "part",
+    "on-missing",    "fix-nan",       "on-empty", RUNNING,     NULL};
 
 const wf_cmd wf_cmd_convert = {
     .name = "convert",

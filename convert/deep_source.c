@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "convert/deep.h"
+#include "convert/foresee.h"
 #include "convert/gathering.h"
 
 /* A unit is a file, which is a frame. */
@@ -159,6 +160,8 @@ static weft_status convert(weft_job *job, wf_setup *setup, samples *s, wf_report
                            weft_error *err) {
     wf_gathering *g = NULL;
     const wf_sample_source source = {.self = s, .units = units, .begin = begin, .band = band};
+    const wf_foresee_desc plan = {.job = job, .setup = setup};
+    if (job->dry_run) return wf_foresee(&plan, report, err);
     weft_status status = wf_gathering_new(job, setup, &source, &g, err);
     if (!status) status = wf_gathering_run(g, err);
     if (g) tell(job, s, g, report);

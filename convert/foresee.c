@@ -1,46 +1,70 @@
+/* --dry-run: seeing what would be done. */
 #include "convert/foresee.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
-typedef struct seen_field {
-    int64_t index;
-    wf_window window;
-    int64_t missing;
-} seen_field;
-
-struct wf_foreseen {
-    seen_field *fields;
-    size_t field_count;
-    int64_t frames, opened, files, missing, present, read_bytes;
-    size_t memory_bytes;
-    int threads;
-    char output[64]; /* the kind's name */
-};
+#include "convert/foresee_parts.h"
+#include "convert/sequence.h"
 
 void wf_foreseen_free(wf_foreseen *f) {
     if (f) free(f->fields);
     free(f);
 }
 
-static void see_fields(wf_foreseen *f, const wf_pipeline *p, int64_t first, int64_t end) {
-    const wf_subframe_ref *refs = p->setup->sequence.refs;
-    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
-    for (int64_t n = first * per_frame; n < end * per_frame; n++) {
-        seen_field field = {n, wf_resampler_window(p->setup->resampler, n), 0};
-        for (int64_t k = 0; k < field.window.count; k++)
-            field.missing += !refs[field.window.first + k].path;
-        f->fields[f->field_count++] = field;
-    }
-    f->frames += end - first;
+static const wf_raster *raster_of(const wf_foresee_desc *d) {
+    return d->setup->sink_options.raster;
 }
 
-static void see_files(wf_foreseen *f, const wf_setup *s, const bool *needed) {
-    const wf_subframe_ref *refs = s->sequence.refs;
+/* ---- Fields ---- */
+
+/* Fields look at the same times whatever there is to see. */
+static weft_status see_times(const wf_foresee_desc *d, wf_timing *timing, weft_error *err) {
+    const wf_gather_desc gather = wf_setup_gather(d->job);
+    const wf_timing_desc desc = {
+        .raster = raster_of(d),
+        .subframe_rate = wf_ratio_div(wf_ratio(1, 1), wf_raster_field_period(raster_of(d))),
+        .subframes = 1,
+        .width = gather.width,
+        .position = gather.position,
+        .skew = wf_ratio_given(gather.skew) ? gather.skew : wf_ratio(0, 1)};
+    char why[512];
+    if (wf_timing_init(timing, &desc, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED, "%s", why);
+}
+
+static void see_field(wf_foreseen *f, const wf_foresee_desc *d, const wf_timing *timing,
+                      int64_t n) {
+    wf_seen_field field = {.index = n};
+    wf_timing_seconds(timing, n, raster_of(d)->lines, &field.from_s, &field.to_s);
+    if (d->pipeline) field.window = wf_resampler_window(d->setup->resampler, n);
+    for (int64_t k = 0; k < field.window.count; k++)
+        field.missing += !d->setup->sequence.refs[field.window.first + k].path;
+    f->fields[f->field_count++] = field;
+}
+
+/* ---- Scenes ---- */
+
+/* As many as the units that fields need, each of them once; *next is past those counted. */
+static void see_samples(wf_foreseen *f, const wf_foresee_desc *d, int64_t field,
+                        int64_t *next) {
+    const wf_raster *r = &d->job->raster;
+    int64_t first, last;
+    wf_sampling_units(d->sampling, field, &first, &last);
+    if (first < *next) first = *next;
+    if (last >= first)
+        f->samples += (last - first + 1) * d->job->samples * r->width_px * r->lines;
+    if (last >= *next) *next = last + 1;
+}
+
+/* ---- Files ---- */
+
+static void see_inputs(wf_foreseen *f, const wf_foresee_desc *d, const bool *needed) {
+    const wf_sequence *sequence = &d->setup->sequence;
+    const wf_subframe_ref *refs = sequence->refs;
     struct stat about;
-    for (size_t k = 0; k < s->sequence.count; k++) {
+    for (size_t k = 0; k < sequence->count; k++) {
         if (!needed[k]) continue;
         bool again = k && refs[k].part >= 0 && needed[k - 1]; /* parts of one file */
         if (again || stat(refs[k].path, &about)) continue;
@@ -49,105 +73,88 @@ static void see_files(wf_foreseen *f, const wf_setup *s, const bool *needed) {
     }
 }
 
-static void see_outputs(wf_foreseen *f, const wf_pipeline *p) {
-    const wf_setup *s = p->setup;
-    snprintf(f->output, sizeof f->output, "%s", s->sink->name);
-    if (!s->sink->sequence) f->present = wf_sink_present(s->sink, p->job->output, -1);
-    for (int64_t n = s->first_frame; s->sink->sequence && n < s->end_frame; n++)
-        f->present += wf_sink_present(s->sink, p->job->output, n);
+static void name_output(const wf_foresee_desc *d, int64_t number, char path[PATH_MAX]) {
+    const char *output = d->job->output;
+    bool named = d->setup->sink->sequence && wf_sequence_is_pattern(output) &&
+                 wf_sequence_output_path(output, number, path, PATH_MAX);
+    if (!named) snprintf(path, PATH_MAX, "%s", output);
 }
 
-/* ---- Telling ---- */
-
-static const char *fate(const weft_job *job, const wf_foreseen *f) {
-    return !f->present      ? "new"
-           : job->overwrite ? "overwritten"
-           : job->resume    ? "kept"
-                            : "refused";
+static void see_present(wf_foreseen *f, const wf_foresee_desc *d) {
+    const wf_setup *s = d->setup;
+    int files = wf_sink_files(&s->sink_options);
+    f->kind = s->sink->name;
+    if (!s->sink->sequence) f->present = wf_sink_present(s->sink, d->job->output, -1);
+    for (int64_t n = s->first_frame * files; s->sink->sequence && n < s->end_frame * files; n++)
+        f->present += wf_sink_present(s->sink, d->job->output, n);
 }
 
-static void put_field(FILE *to, const wf_foreseen *f, size_t i) {
-    const seen_field *field = &f->fields[i];
-    fprintf(to, "  field %" PRId64 ": subframes %" PRId64 "..%" PRId64 " (%" PRId64 ")",
-            field->index, field->window.first, field->window.first + field->window.count - 1,
-            (int64_t)field->window.count);
-    if (field->missing) fprintf(to, ", %" PRId64 " of them missing", field->missing);
-    fputc('\n', to);
-}
+/* ---- All of it ---- */
 
-static weft_status put_text(const wf_foreseen *f, weft_job *job, weft_error *err) {
-    size_t size;
-    free(job->plan);
-    job->plan = NULL;
-    FILE *to = open_memstream(&job->plan, &size);
-    if (!to) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
-    fprintf(to, "%s: %" PRId64 " frames, %zu fields of %s\n", job->output, f->frames,
-            f->field_count, job->raster.name);
-    fprintf(to, "output: %s, %" PRId64 " there already (%s)\n", f->output, f->present,
-            fate(job, f));
-    fprintf(to, "input: %" PRId64 " files, %" PRId64 " bytes, opened %" PRId64 " times\n",
-            f->files, f->read_bytes, f->opened);
-    fprintf(to, "memory: %zu MB at most; threads: %d\n", f->memory_bytes >> 20, f->threads);
-    for (size_t i = 0; i < f->field_count; i++) {
-        bool middle = f->field_count > 9 && i >= 6 && i + 2 < f->field_count;
-        if (!middle)
-            put_field(to, f, i);
-        else if (i == 6)
-            fputs("  ...\n", to);
+static void see_frames(wf_foreseen *f, const wf_foresee_desc *d, const wf_timing *timing,
+                       bool *needed) {
+    const wf_setup *s = d->setup;
+    int per_frame = wf_raster_fields_per_frame(raster_of(d));
+    int files = wf_sink_files(&s->sink_options);
+    int64_t next = INT64_MIN;
+    for (int64_t n = s->first_frame, end; wf_next_frames(d->job, s, &n, &end); n = end) {
+        if (d->pipeline) wf_pipeline_foresee(d->pipeline, n, end, needed);
+        for (int64_t k = n * per_frame; !d->pictures && k < end * per_frame; k++) {
+            see_field(f, d, timing, k);
+            if (d->sampling) see_samples(f, d, k, &next);
+        }
+        if (!f->frames) name_output(d, n * files, f->first_output);
+        name_output(d, end * files - 1, f->last_output);
+        f->frames += end - n;
     }
-    return fclose(to) ? wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan") : WEFT_OK;
+    f->outputs = !f->frames ? 0 : s->sink->sequence ? f->frames * files : 1;
+    if (d->pictures)
+        f->samples = f->frames * (int64_t)raster_of(d)->width_px * raster_of(d)->lines;
 }
 
-static void add_plan(wf_json *json, const void *plan) {
-    const wf_foreseen *f = plan;
-    wf_json_open(json, "plan", '{');
-    wf_json_int(json, "frames", f->frames);
-    wf_json_int(json, "fields_made", (int64_t)f->field_count);
-    wf_json_text(json, "output", f->output);
-    wf_json_int(json, "present", f->present);
-    wf_json_int(json, "files", f->files);
-    wf_json_int(json, "opened", f->opened);
-    wf_json_int(json, "bytes_to_read", f->read_bytes);
-    wf_json_int(json, "memory_bytes", (int64_t)f->memory_bytes);
-    wf_json_int(json, "threads", f->threads);
-    wf_json_open(json, "fields", '[');
-    for (size_t i = 0; i < f->field_count; i++) {
-        const seen_field *field = &f->fields[i];
-        wf_json_open(json, NULL, '{');
-        wf_json_int(json, "field", field->index);
-        wf_json_int(json, "first", field->window.first);
-        wf_json_int(json, "count", field->window.count);
-        wf_json_int(json, "missing", field->missing);
-        wf_json_close(json);
-    }
-    wf_json_close(json);
-    wf_json_close(json);
+/* Samples are R G B t x y in float, behind a table of how many each pixel has. */
+static wf_sink_size deep_size(const wf_foreseen *f, const wf_raster *r) {
+    int64_t table = 4 * (int64_t)r->width_px * r->lines;
+    return (wf_sink_size){24 * f->samples + f->frames * (4096 + table), WF_SIZE_MOST};
 }
 
-weft_status wf_foresee(wf_pipeline *p, wf_report *report, weft_error *err) {
-    const wf_setup *s = p->setup;
-    int per_frame = wf_raster_fields_per_frame(&p->job->raster);
-    size_t most = (size_t)((s->end_frame - s->first_frame) * per_frame) + 1;
-    wf_foreseen *f = calloc(1, sizeof *f);
+static wf_sink_size see_size(const wf_foreseen *f, const wf_foresee_desc *d) {
+    if (d->job->command == WF_TRACE && !d->pictures) return deep_size(f, raster_of(d));
+    return wf_sink_size_of(d->setup->sink, &d->setup->sink_options, f->frames);
+}
+
+static weft_status see(wf_foreseen *f, const wf_foresee_desc *d, weft_error *err) {
+    const wf_setup *s = d->setup;
+    size_t most = (size_t)((s->end_frame - s->first_frame) * 2) + 1;
     bool *needed = calloc(s->sequence.count + 1, sizeof *needed);
-    if (f) f->fields = calloc(most, sizeof *f->fields);
-    report->plan = f;
-    if (!f || !needed || !f->fields) {
-        free(needed);
-        return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
-    }
-    for (int64_t first = s->first_frame, end; wf_next_frames(p->job, s, &first, &end);) {
-        wf_pipeline_foresee(p, first, end, needed);
-        see_fields(f, p, first, end);
-        first = end;
-    }
-    see_files(f, s, needed);
-    see_outputs(f, p);
+    f->fields = d->pictures ? NULL : calloc(most, sizeof *f->fields);
+    wf_timing timing;
+    weft_status status = needed && (f->fields || d->pictures)
+                             ? see_times(d, &timing, err)
+                             : wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
+    see_present(f, d);
+    bool done = d->job->resume && !s->sink->sequence && f->present;
+    if (!status && !done) see_frames(f, d, &timing, needed);
+    if (!status && f->frames) f->size = see_size(f, d);
+    if (!status && d->pipeline) see_inputs(f, d, needed);
     free(needed);
-    f->opened = p->opened;
-    p->opened = 0;
-    f->memory_bytes = p->bytes;
-    f->threads = p->threads;
-    report->add_plan = add_plan;
-    return put_text(f, p->job, err);
+    return status;
+}
+
+weft_status wf_foresee(const wf_foresee_desc *d, wf_report *report, weft_error *err) {
+    wf_foreseen *f = calloc(1, sizeof *f);
+    report->plan = f;
+    if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
+    f->reads = d->pipeline != NULL;
+    weft_status status = see(f, d, err);
+    if (status) return status;
+    if (!(d->sampling || d->pictures) || wf_ratio_given(d->job->error)) f->samples = -1;
+    if (d->pipeline) {
+        f->opened = d->pipeline->opened;
+        d->pipeline->opened = 0;
+        f->memory_bytes = d->pipeline->bytes;
+        f->threads = d->pipeline->threads;
+    }
+    report->add_plan = wf_foreseen_json;
+    return wf_foreseen_text(f, d->job, err);
 }

@@ -133,7 +133,6 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "--error is for render: samples that are written are as many everywhere"},
         {job->command == WF_TRACE && job->separate_fields,
          "--fields is for pictures of fields, and trace stores samples; give it to convert"},
-        {job->dry_run && job->command != WF_CONVERT, "--dry-run is for weft convert"},
         {!job->input_count,
          "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
          "directory"},

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/foresee.h"
 #include "convert/gathering.h"
 #include "convert/picture.h"
 #include "convert/range.h"
@@ -203,6 +204,12 @@ static weft_status render(weft_job *job, wf_setup *s, const wf_scene *scene, wf_
     renderer r = {0};
     wf_gathering *g = NULL;
     weft_status status = make_renderer(job, scene, &r, err);
+    const wf_foresee_desc plan = {.job = job, .setup = s, .sampling = r.sampling};
+    if (job->dry_run) {
+        if (!status) status = wf_foresee(&plan, report, err);
+        free_renderer(&r);
+        return status;
+    }
     wf_sample_source source = {.self = &r,
                                .units = units,
                                .begin = begin,
@@ -230,7 +237,7 @@ weft_status wf_run_render(weft_job *job, wf_report *report, weft_error *err) {
         report->legal = wf_setup_legal(job, &s);
         bool done =
             job->resume && !s.sink->sequence && wf_sink_present(s.sink, job->output, -1);
-        if (!done) status = render(job, &s, &scene, report, err);
+        if (!done || job->dry_run) status = render(job, &s, &scene, report, err);
     }
     wf_setup_free(&s);
     wf_scene_free(&scene);

@@ -134,12 +134,13 @@ static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
 static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p,
                              wf_report *report, weft_error *err) {
     bool *degraded = &report->degraded;
-    if (job->resume && !s->sink->sequence && wf_sink_present(s->sink, job->output, -1))
-        return WEFT_OK;
+    bool done = job->resume && !s->sink->sequence && wf_sink_present(s->sink, job->output, -1);
+    if (done && !job->dry_run) return WEFT_OK;
     weft_status status = wf_refuse_own_inputs(job, s, err);
-    if (!status) status = face_missing(job, s, degraded, err);
+    if (!status && !done) status = face_missing(job, s, degraded, err);
     if (!status) status = wf_pipeline_new(job, s, p, err);
-    if (!status && job->dry_run) return wf_foresee(*p, report, err);
+    const wf_foresee_desc plan = {.job = job, .setup = s, .pipeline = *p};
+    if (!status && job->dry_run) return wf_foresee(&plan, report, err);
     if (!status) status = run_with_sink(*p, err);
     if (!status) tell_mended(job, wf_pipeline_counts(*p).nan_fixed, degraded);
     return status;
@@ -148,11 +149,6 @@ static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p,
 static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
     wf_setup setup = {0};
     wf_pipeline *pipeline = NULL;
-    if (wf_takes_samples(job) && job->dry_run)
-        return wf_fail(err, WEFT_USAGE,
-                       "%s: --dry-run is for subframes, and these are sample "
-                       "buffers",
-                       job->inputs[0]);
     if (wf_takes_samples(job)) {
         if (job->cadence == WF_CADENCE_NONE) return wf_run_samples(job, report, err);
         return wf_fail(err, WEFT_USAGE,

@@ -94,6 +94,11 @@ const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_erro
 
 /* ---- What is there ---- */
 
+wf_sink_size wf_sink_size_of(const wf_sink_kind *kind, const wf_sink_options *options,
+                             int64_t frames) {
+    return kind->size ? kind->size(options, frames) : (wf_sink_size){0};
+}
+
 int wf_sink_files(const wf_sink_options *options) {
     return options->separate_fields ? 2 : 1;
 }

@@ -37,6 +37,19 @@ typedef struct wf_frame {
 
 typedef struct wf_sink wf_sink;
 
+/* How many bytes a run will write, as far as that can be told before. */
+typedef enum wf_size_known {
+    WF_SIZE_UNKNOWN,
+    WF_SIZE_EXACT,
+    WF_SIZE_ABOUT, /* within some percent */
+    WF_SIZE_MOST   /* before compression */
+} wf_size_known;
+
+typedef struct wf_sink_size {
+    int64_t bytes;
+    wf_size_known known;
+} wf_sink_size;
+
 /* One kind of output: a row of the registry. A sink is driven by one thread at a time. */
 typedef struct wf_sink_kind {
     const char *name;
@@ -53,6 +66,8 @@ typedef struct wf_sink_kind {
     weft_status (*check)(const wf_sink_options *options, weft_error *err);
     /* What it will change without being asked to, for people; "": nothing. NULL: nothing. */
     void (*tell)(const wf_sink_options *options, char *text, size_t size);
+    /* Bytes of `frames` frames; NULL: not known. */
+    wf_sink_size (*size)(const wf_sink_options *options, int64_t frames);
     weft_status (*open)(const wf_sink_options *options, wf_sink **out, weft_error *err);
     weft_status (*write)(wf_sink *sink, const wf_frame *frame, weft_error *err);
     weft_status (*commit)(wf_sink *sink,
@@ -66,6 +81,10 @@ const wf_sink_kind *wf_sink_at(size_t index);
 /* The kind that an output's name asks for and, in a container, the codec (NULL: its default);
  * NULL with an error that lists what there is. */
 const wf_sink_kind *wf_sink_for(const char *output, const char *codec, weft_error *err);
+
+/* What the kind says of that, {0} where it does not. */
+wf_sink_size wf_sink_size_of(const wf_sink_kind *kind, const wf_sink_options *options,
+                             int64_t frames);
 
 /* Files a frame of a sequence: frame n is files n * this and on, in order of time. */
 int wf_sink_files(const wf_sink_options *options);

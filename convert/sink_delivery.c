@@ -60,6 +60,37 @@ void wf_delivery_tell(const wf_sink_options *o, char *text, size_t size) {
              o->raster->lines - form->kept_lines - form->skip_lines, wf_raster_order(&kept));
 }
 
+/* ---- Sizes ---- */
+
+static int64_t seconds_of(const wf_sink_options *o, int64_t frames, int64_t rate) {
+    return (int64_t)((double)(frames * rate) / wf_ratio_value(o->raster->frame_rate));
+}
+
+int64_t wf_sound_bytes(const wf_sink_options *o, int64_t frames) {
+    return o->silent_tracks * seconds_of(o, frames, 48000 * 3);
+}
+
+/* Of uncompressed frames and of those of a constant rate; 0: others. DNxHD's table of n Mb/s is
+ * that of 25 frames, and of 50 where there are 720 lines. */
+static int64_t picture_bytes(const wf_sink_options *o, const wf_delivery *d,
+                             const wf_delivery_form *form, int64_t frames) {
+    if (!strcmp(d->encoder, "v210")) return frames * (int64_t)wf_v210_bytes(o);
+    if (d->constant) return seconds_of(o, frames, form->bit_rate / 8);
+    if (!strcmp(d->encoder, "dnxhd") && form->bit_rate)
+        return frames * (form->bit_rate / 8 / (form->lines == 720 ? 50 : 25));
+    return 0;
+}
+
+wf_sink_size wf_delivery_size(const wf_sink_options *o, int64_t frames) {
+    const wf_delivery *d = delivery_of(o);
+    const wf_delivery_form *form = wf_delivery_form_for(d, o, NULL);
+    int64_t pictures = form ? picture_bytes(o, d, form, frames) : 0;
+    if (!pictures) return (wf_sink_size){0};
+    return (wf_sink_size){pictures + wf_sound_bytes(o, frames), WF_SIZE_ABOUT};
+}
+
+/* ---- Opening and writing ---- */
+
 weft_status wf_delivery_open(const wf_sink_options *o, wf_sink **out, weft_error *err) {
     void *symbol;
     wf_libav_writer_fn *writer;

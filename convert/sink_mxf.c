@@ -33,6 +33,12 @@ static size_t frame_bytes(const wf_sink_options *o) {
     return o->bits == 8 ? wf_uyvy_bytes(o) : wf_v210_bytes(o);
 }
 
+/* Frames and sound; keys, headers and the index come to less than a hundredth. */
+wf_sink_size wf_mxf_sink_size(const wf_sink_options *o, int64_t frames) {
+    return (wf_sink_size){frames * (int64_t)frame_bytes(o) + wf_sound_bytes(o, frames),
+                          WF_SIZE_ABOUT};
+}
+
 /* The label of a chunk's first frame: chunks are files of their own. */
 static wf_timecode start_of(const wf_sink_options *o) {
     wf_timecode label = {0};

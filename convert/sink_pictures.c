@@ -193,6 +193,28 @@ static void abandon(wf_sink *s) {
     free(s);
 }
 
+/* ---- Sizes ---- */
+
+/* Lines of DPX as OpenImageIO writes them: three codes of 10 bits in a word, 12 bits packed and
+ * filled to words, 8 and 16 as they are. Its headers have 8192 bytes. */
+static int64_t dpx_line_bytes(const wf_sink_options *o) {
+    int64_t samples = 3 * (int64_t)o->raster->width_px;
+    if (o->bits == 10) return samples / 3 * 4;
+    return o->bits == 12 ? (samples * 12 + 31) / 32 * 4 : samples * o->bits / 8;
+}
+
+static wf_sink_size dpx_size(const wf_sink_options *o, int64_t frames) {
+    int64_t lines = o->raster->lines * dpx_line_bytes(o);
+    return (wf_sink_size){frames * (8192 * wf_sink_files(o) + lines), WF_SIZE_EXACT};
+}
+
+/* The others compress: no more than the samples and what a header takes. */
+static wf_sink_size compressed_size(const wf_sink_options *o, int64_t frames) {
+    int64_t sample = o->bits == 32 ? 4 : o->bits > 8 ? 2 : 1;
+    int64_t picture = 3 * (int64_t)o->raster->width_px * o->raster->lines * sample;
+    return (wf_sink_size){frames * (4096 * wf_sink_files(o) + picture), WF_SIZE_MOST};
+}
+
 #define PICTURES(kind, oiio_name)                                                              \
     static weft_status kind##_open(const wf_sink_options *options, wf_sink **out,              \
                                    weft_error *err) {                                          \
@@ -215,6 +237,7 @@ const wf_sink_kind wf_sink_exr = {.name = "OpenEXR",
                                   .full_range = true,
                                   .sequence = true,
                                   .joins = true,
+                                  .size = compressed_size,
                                   .open = exr_open,
                                   .write = write_frame,
                                   .commit = commit,
@@ -229,6 +252,7 @@ const wf_sink_kind wf_sink_dpx = {.name = "DPX",
                                   .full_range = true,
                                   .sequence = true,
                                   .joins = true,
+                                  .size = dpx_size,
                                   .open = dpx_open,
                                   .write = write_frame,
                                   .commit = commit,
@@ -243,6 +267,7 @@ const wf_sink_kind wf_sink_tiff = {.name = "TIFF",
                                    .full_range = true,
                                    .sequence = true,
                                    .joins = true,
+                                   .size = compressed_size,
                                    .open = tiff_open,
                                    .write = write_frame,
                                    .commit = commit,
@@ -257,6 +282,7 @@ const wf_sink_kind wf_sink_png = {.name = "PNG",
                                   .full_range = true,
                                   .sequence = true,
                                   .joins = true,
+                                  .size = compressed_size,
                                   .open = png_open,
                                   .write = write_frame,
                                   .commit = commit,

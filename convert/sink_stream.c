@@ -9,12 +9,16 @@
 #include "convert/outfile.h"
 #include "convert/sink_kinds.h"
 
+#define HEADER_SIZE 256 /* of the text before the first frame */
+
 typedef struct stream_format {
     /* Text before the first frame; its length, 0: none. */
     int (*header)(const wf_sink_options *options, char *text, size_t size);
     size_t (*frame_bytes)(const wf_sink_options *options);
     /* Packs the frame into `to`; returns how many bytes of it are to be written. */
     size_t (*pack)(const wf_sink_options *options, const wf_frame *frame, uint8_t *to);
+    int64_t
+        line_bytes; /* written a frame, where that is less than packing takes; 0: it is not */
     const char *prefix; /* of the output's name, before the file's; NULL: none */
     bool silent;        /* nothing is written */
 } stream_format;
@@ -48,10 +52,21 @@ static const char *file_of(const wf_sink *s) {
 }
 
 static weft_status write_header(wf_sink *s, weft_error *err) {
-    char text[256];
+    char text[HEADER_SIZE];
     if (!s->format->header || !s->options.stream_header) return WEFT_OK;
     int length = s->format->header(&s->options, text, sizeof text);
     return wf_outfile_write(s->file, text, (size_t)length, err);
+}
+
+static wf_sink_size stream_size(const wf_sink_options *options, const stream_format *format,
+                                int64_t frames) {
+    char text[HEADER_SIZE];
+    int header = format->header && options->stream_header
+                     ? format->header(options, text, sizeof text)
+                     : 0;
+    int64_t each =
+        format->line_bytes ? format->line_bytes : (int64_t)format->frame_bytes(options);
+    return (wf_sink_size){header + frames * each, WF_SIZE_EXACT};
 }
 
 static weft_status open_stream(const wf_sink_options *options, const stream_format *format,
@@ -254,13 +269,19 @@ static size_t hash_pack(const wf_sink_options *o, const wf_frame *frame, uint8_t
     static weft_status kind##_open(const wf_sink_options *options, wf_sink **out,              \
                                    weft_error *err) {                                          \
         return open_stream(options, &kind##_format, out, err);                                 \
+    }                                                                                          \
+    static wf_sink_size kind##_size(const wf_sink_options *options, int64_t frames) {          \
+        return stream_size(options, &kind##_format, frames);                                   \
     }
 
 STREAM(y4m, {.header = y4m_header, .frame_bytes = y4m_frame_bytes, .pack = y4m_pack})
 STREAM(v210, {.frame_bytes = wf_v210_bytes, .pack = wf_v210_pack})
 STREAM(uyvy, {.frame_bytes = wf_uyvy_bytes, .pack = wf_uyvy_pack})
 STREAM(null, {.frame_bytes = nothing_bytes, .pack = nothing, .silent = true})
-STREAM(hash, {.frame_bytes = hash_frame_bytes, .pack = hash_pack, .prefix = "hash:"})
+STREAM(hash, {.frame_bytes = hash_frame_bytes,
+              .line_bytes = 8 + 1 + 32 + 1,
+              .pack = hash_pack,
+              .prefix = "hash:"})
 
 #define BITS(n) (1u << (n))
 
@@ -272,6 +293,7 @@ const wf_sink_kind wf_sink_y4m = {
     .bits_mask = BITS(8) | BITS(10) | BITS(12) | BITS(16),
     .default_bits = 10,
     .joins = true,
+    .size = y4m_size,
     .open = y4m_open,
     .write = write_frame,
     .commit = commit,
@@ -285,6 +307,7 @@ const wf_sink_kind wf_sink_v210 = {.name = "v210",
                                    .default_bits = 10,
                                    .joins = true,
                                    .fixed_422 = true,
+                                   .size = v210_size,
                                    .open = v210_open,
                                    .write = write_frame,
                                    .commit = commit,
@@ -298,6 +321,7 @@ const wf_sink_kind wf_sink_uyvy = {.name = "uyvy",
                                    .default_bits = 8,
                                    .joins = true,
                                    .fixed_422 = true,
+                                   .size = uyvy_size,
                                    .open = uyvy_open,
                                    .write = write_frame,
                                    .commit = commit,
@@ -310,6 +334,7 @@ const wf_sink_kind wf_sink_null = {.name = "null",
                                    .bits_mask = BITS(8) | BITS(10) | BITS(12) | BITS(16),
                                    .default_bits = 10,
                                    .joins = true,
+                                   .size = null_size,
                                    .open = null_open,
                                    .write = write_frame,
                                    .commit = commit,
@@ -323,6 +348,7 @@ const wf_sink_kind wf_sink_hash = {
     .bits_mask = BITS(8) | BITS(10) | BITS(12) | BITS(16),
     .default_bits = 10,
     .joins = true,
+    .size = hash_size,
     .open = hash_open,
     .write = write_frame,
     .commit = commit,

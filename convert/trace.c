@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "convert/deep.h"
+#include "convert/foresee.h"
 #include "convert/gathering.h"
 #include "convert/render.h"
 #include "convert/values.h"
@@ -297,7 +298,11 @@ static weft_status trace_samples(weft_job *job, const wf_scene *scene, wf_setup 
                              ? WEFT_OK
                              : wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
     t.total = s->end_frame - s->first_frame;
-    for (int64_t n = s->first_frame; !status && wf_next_frames(job, s, &n, &end);)
+    const wf_foresee_desc plan = {
+        .job = job, .setup = s, .sampling = status ? NULL : *t.sampling};
+    if (!status && job->dry_run) status = wf_foresee(&plan, report, err);
+    for (int64_t n = s->first_frame;
+         !status && !job->dry_run && wf_next_frames(job, s, &n, &end);)
         for (; !status && n < end; n++) {
             char path[PATH_MAX];
             if (!wf_sequence_output_path(job->output, n, path, sizeof path))
@@ -317,6 +322,7 @@ typedef struct subframes {
     int across, down, times; /* samples a pixel, a line, a field */
     wf_raster raster;        /* of their pictures */
     wf_rational rate;
+    int64_t per_frame;
     float *plane[3];
 } subframes;
 
@@ -331,6 +337,7 @@ static void describe_subframes(const weft_job *job, subframes *f) {
         wf_ratio_mul(job->raster.pixel_aspect, wf_ratio(f->down, f->across));
     f->rate = wf_ratio_div(wf_ratio(f->times, 1), wf_raster_field_period(&job->raster));
     f->raster.frame_rate = f->rate;
+    f->per_frame = (int64_t)f->times * (job->raster.scan == WF_INTERLACED ? 2 : 1);
 }
 
 static void trace_band_of(tracing *t, const subframes *f, int first, int rows, float *rgb) {
@@ -379,21 +386,24 @@ static weft_status trace_subframe(tracing *t, const subframes *f, const wf_sink_
     return status;
 }
 
-static weft_status open_subframes(const weft_job *job, const wf_setup *s, const char *space,
-                                  subframes *f, wf_sink **sink, weft_error *err) {
+/* The setup of a run whose frames are the subframes. */
+static void turn_to_subframes(const wf_scene *scene, const subframes *f, wf_setup *s) {
+    s->first_frame *= f->per_frame;
+    s->end_frame *= f->per_frame;
+    s->sink_options.raster = &f->raster;
+    s->sink_options.timecode = NULL;
+    s->sink_options.color_space = *scene->color_space ? scene->color_space : "lin_rec709";
+    s->sink_options.subframe_rate = f->rate;
+    wf_setup_count_frames(s);
+}
+
+static weft_status open_subframes(const wf_setup *s, subframes *f, wf_sink **sink,
+                                  weft_error *err) {
     size_t bytes = (size_t)f->raster.width_px * (size_t)f->raster.lines * sizeof(float);
-    wf_sink_options options = s->sink_options;
-    int64_t per_frame = (int64_t)f->times * (job->raster.scan == WF_INTERLACED ? 2 : 1);
-    options.raster = &f->raster;
-    options.timecode = NULL;
-    options.color_space = space;
-    options.subframe_rate = f->rate;
-    options.first_frame = s->first_frame * per_frame;
-    options.frame_count = (s->end_frame - s->first_frame) * per_frame;
     for (int c = 0; c < 3; c++)
         if (!(f->plane[c] = malloc(bytes)))
             return wf_fail(err, WEFT_NO_MEMORY, "no memory for a subframe");
-    return s->sink->open(&options, sink, err);
+    return s->sink->open(&s->sink_options, sink, err);
 }
 
 static weft_status trace_subframes(weft_job *job, const wf_scene *scene, wf_setup *s,
@@ -401,15 +411,16 @@ static weft_status trace_subframes(weft_job *job, const wf_scene *scene, wf_setu
     subframes f = {0};
     tracing t;
     wf_sink *sink = NULL;
-    const char *space = *scene->color_space ? scene->color_space : "lin_rec709";
     describe_subframes(job, &f);
+    turn_to_subframes(scene, &f, s);
+    const wf_foresee_desc plan = {.job = job, .setup = s, .pictures = true};
+    if (job->dry_run) return wf_foresee(&plan, report, err);
     weft_status status = make(&t, job, scene, 1)
                              ? WEFT_OK
                              : wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
-    if (!status) status = open_subframes(job, s, space, &f, &sink, err);
-    int64_t per_frame = (int64_t)f.times * (job->raster.scan == WF_INTERLACED ? 2 : 1);
-    t.total = (s->end_frame - s->first_frame) * per_frame;
-    for (int64_t k = s->first_frame * per_frame; !status && k < s->end_frame * per_frame; k++)
+    if (!status) status = open_subframes(s, &f, &sink, err);
+    t.total = s->end_frame - s->first_frame;
+    for (int64_t k = s->first_frame; !status && k < s->end_frame; k++)
         if (!job->resume || !wf_sink_present(s->sink, job->output, k))
             status = trace_subframe(&t, &f, s->sink, sink, k, err);
     if (sink && !status)

@@ -78,6 +78,12 @@ wf_window wf_timing_field(const wf_timing *t, int64_t field, int lines) {
                        top.alone && bottom.alone};
 }
 
+void wf_timing_seconds(const wf_timing *t, int64_t field, int lines, double *from, double *to) {
+    double tick = wf_ratio_value(wf_raster_field_period(t->raster)) / (double)t->tick_rate;
+    *from = (double)window_start(t, field, 0) * tick;
+    *to = (double)(window_start(t, field, lines - 1) + t->width) * tick;
+}
+
 void wf_timing_cell(const wf_timing *t, int64_t field, int line, int64_t k, double *q0,
                     double *q1) {
     wf_ticks start = window_start(t, field, line);

@@ -52,6 +52,10 @@ wf_window wf_timing_window(const wf_timing *timing, int64_t field, int line);
 /* The window of all lines of a raster of `lines` lines. */
 wf_window wf_timing_field(const wf_timing *timing, int64_t field, int lines);
 
+/* When the windows of all lines of a raster of `lines` lines open and close, in seconds. */
+void wf_timing_seconds(const wf_timing *timing, int64_t field, int lines, double *from,
+                       double *to);
+
 /* The part of cell k inside the window, in field periods from the window's centre. */
 void wf_timing_cell(const wf_timing *timing, int64_t field, int line, int64_t k, double *q0,
                     double *q1);
