@@ -21,9 +21,19 @@ static const char *aperture_name(size_t i, weft_raster *raster) {
     return weft_aperture_name(i);
 }
 
+/* A codec that goes into several containers has a row for each: here it is listed once. */
+static bool is_repeated(size_t i) {
+    for (size_t j = 0; j < i; j++)
+        if (!strcmp(wf_delivery_at(j)->kind.name, wf_delivery_at(i)->kind.name)) return true;
+    return false;
+}
+
 static const char *codec_name(size_t i, weft_raster *raster) {
     (void)raster;
-    return wf_delivery_at(i) ? wf_delivery_at(i)->kind.name : NULL;
+    size_t row = 0;
+    for (; wf_delivery_at(row); row++)
+        if (!is_repeated(row) && !i--) break;
+    return wf_delivery_at(row) ? wf_delivery_at(row)->kind.name : NULL;
 }
 
 /* Names that are listed elsewhere, by the option or the command that takes one. */

@@ -187,7 +187,7 @@ class Job:
         if os.fspath(path) == "-":
             raise UsageError("a job is loaded from a file here, not from standard input")
         call(lib.weft_job_load, self._idle(), os.fsencode(path))
-        with open(path, encoding="utf-8") as file:
+        with open(path, encoding="utf-8-sig") as file:
             said = json.load(file)
         if "raster" in said:
             self._raster = raster(said["raster"])
