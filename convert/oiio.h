@@ -3,7 +3,7 @@
 
 #include "convert/source.h"
 
-/* What the OpenImageIO module (convert/oiio.cpp) does for sources and sinks: formats that weft
+/* What the OpenImageIO module (convert/oiio*.cpp) does for sources and sinks: formats that weft
  * does not read or write itself. No function keeps anything between calls; any threads. Entry
  * points are found by name with wf_module_symbol("oiio", "wf_oiio_probe", ..). */
 
