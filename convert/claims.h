@@ -15,7 +15,8 @@ typedef struct wf_claims {
     int width_px, lines; /* as coded */
     wf_rational rate, pixel_aspect;
     bool scan_known, interlaced, top_first;
-    bool tagged; /* the next three are said */
+    bool coded_fields, coded_top_first; /* the first frame is coded as fields, in this order */
+    bool tagged;                        /* the next three are said */
     wf_color_tags tags;
     int64_t frames;    /* -1: not said */
     double video_s;    /* how long the video is; 0: not said */

@@ -79,6 +79,8 @@ static void read_frame(AVFormatContext *format, int stream, wf_claims *c) {
         av_packet_unref(packet);
         have = code >= 0 && avcodec_receive_frame(codec, frame) >= 0;
     }
+    c->coded_fields = have && frame->interlaced_frame;
+    c->coded_top_first = c->coded_fields && frame->top_field_first;
     if (have && !c->scan_known) {
         c->scan_known = true;
         c->interlaced = frame->interlaced_frame;

@@ -122,6 +122,16 @@ static wf_verdict check_flags(const wf_subject *s, wf_finding *f) {
     return say(f, !strcmp(is, wanted_order(s)), is, wanted_order(s));
 }
 
+/* Frames of an interlaced stream may be coded as progressive; those coded as fields have its
+ * order. */
+static wf_verdict check_coded(const wf_subject *s, wf_finding *f) {
+    const char *is = order_text(s->claims.coded_fields, s->claims.coded_top_first);
+    if (!s->claims.coded_fields || !s->claims.interlaced)
+        return open_question(f, "the first frame is not coded as fields");
+    const char *said = order_text(true, s->claims.top_first);
+    return say(f, !strcmp(is, said), is, said);
+}
+
 static wf_verdict check_order(const wf_subject *s, wf_finding *f) {
     const char *is = s->figures.order_verdict;
     bool fields = s->raster.scan == WF_INTERLACED;
@@ -354,6 +364,7 @@ static const struct check {
     {"size", TO_PIXELS | TO_RASTER, 0, false, check_size, "%s"},
     {"rate", TO_PIXELS | TO_RASTER, 0, false, check_rate, "%s"},
     {"flags", TO_PIXELS | TO_RASTER, 0, false, check_flags, "%s"},
+    {"coded", TO_CONTAINER | TO_PIXELS | TO_FIELDS, 0, false, check_coded, "its container"},
     {"order", TO_PIXELS | TO_RASTER, 0, false, check_order, "%s"},
     {"aspect", TO_PIXELS | TO_RASTER, 0, false, check_aspect, "%s"},
     {"colors", TO_CONTAINER | TO_RASTER, 0, false, check_colors, "%s"},

@@ -45,6 +45,14 @@ wrong()
     only "$name" "$to" "$@"
 }
 
+# coding FILE OFFSET: that byte of MPEG-2's first picture coding extension, with the other order of fields.
+coding()
+{
+    python3 -c 'import sys
+data = open(sys.argv[1], "rb").read()
+print("%02x" % (data[data.index(b"\0\0\1\xb5\x8f") + 4 + int(sys.argv[2])] ^ 0x80))' "$@"
+}
+
 # ---- What weft delivers is right ----
 
 check "v210" made a.mov --codec v210 --raster 525i --timecode "01:00:00;00" --audio silent:2
@@ -88,6 +96,7 @@ check "layout" wrong layout i.mxf item 320c 0 04
 check "line map" wrong "line map" i.mxf item 320d 8 0000001500000100
 check "dominance" wrong dominance i.mxf item 3212 0 02
 check "siting" wrong siting i.mxf item 3303 0 03
+check "fields of MPEG-2" wrong coded i.mxf picture - 3 "$(coding i.mxf 3)"
 check "aspect of MXF" wrong aspect i.mxf item 320e 0 0000001000000009
 check "base" wrong base i.mxf item 1502 0 0019
 check "base of QuickTime" wrong base p.mov atom tmcd 24 1e
