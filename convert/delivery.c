@@ -196,18 +196,20 @@ void wf_delivery_codecs(char *text, size_t size) {
 }
 
 static void refuse_codec(const char *output, const char *codec, weft_error *err) {
-    char there[256];
+    char there[256], endings[64] = "";
     wf_near near = {.text = codec};
-    const wf_delivery *elsewhere = NULL;
+    size_t used = 0;
     for (size_t i = 0; i < ROWS; i++) {
         wf_near_offer(&near, rows[i].kind.name);
-        if (!strcmp(rows[i].kind.name, codec)) elsewhere = &rows[i];
+        if (!strcmp(rows[i].kind.name, codec) && used < sizeof endings)
+            used += (size_t)snprintf(endings + used, sizeof endings - used, "%s.%s",
+                                     used ? " and " : "", rows[i].kind.endings);
     }
     list_codecs(ending_of(output), there, sizeof there);
-    if (elsewhere)
+    if (*endings)
         wf_fail(err, WEFT_USAGE,
-                "%.500s: %s does not go into .%s; it goes into .%s, and .%s takes %s", output,
-                codec, ending_of(output), elsewhere->kind.endings, ending_of(output), there);
+                "%.500s: %s does not go into .%s; it goes into %s, and .%s takes %s", output,
+                codec, ending_of(output), endings, ending_of(output), there);
     else if (near.best)
         wf_fail(err, WEFT_USAGE, "--codec: '%.100s' is unknown; did you mean %s?", codec,
                 near.best);
@@ -286,13 +288,30 @@ static void tell_rasters(const wf_delivery *delivery, int bits, char *text, size
                                      used ? ", " : "--raster ", r->name);
 }
 
+/* "; of .mxf --codec imx50, v210 take it": codecs of the same container, at any bits. */
+static void tell_others(const wf_sink_options *o, char *text, size_t size) {
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < ROWS && used < size; i++) {
+        bool takes = false;
+        for (size_t k = 0; k < rows[i].form_count; k++)
+            takes = takes || fits(&rows[i].forms[k], o->raster);
+        if (!takes || !ends_in(&rows[i], ending_of(o->output))) continue;
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                 rows[i].kind.name);
+    }
+}
+
 static void refuse_raster(const wf_delivery *delivery, const wf_sink_options *o,
                           weft_error *err) {
-    char there[512];
+    char there[512], others[256];
     tell_rasters(delivery, o->bits, there, sizeof there);
-    wf_fail(err, WEFT_USAGE, "%.200s: %s of %d bits does not take %s (%dx%d, %s); it takes %s",
-            o->output, delivery->kind.name, o->bits, o->raster->name, o->raster->width_px,
-            o->raster->lines, wf_raster_order(o->raster), there);
+    tell_others(o, others, sizeof others);
+    wf_fail(err, WEFT_USAGE,
+            "%.200s: %s of %d bits does not take %s (%dx%d, %s)%s%s; it takes %s", o->output,
+            delivery->kind.name, o->bits, o->raster->name, o->raster->width_px,
+            o->raster->lines, wf_raster_order(o->raster),
+            *others ? ", which is for --codec " : "", others, there);
 }
 
 const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
