@@ -97,7 +97,7 @@ check "line map" wrong "line map" i.mxf item 320d 8 0000001500000100
 check "dominance" wrong dominance i.mxf item 3212 0 02
 check "siting" wrong siting i.mxf item 3303 0 03
 check "fields of MPEG-2" wrong coded i.mxf picture - 3 "$(coding i.mxf 3)"
-check "aspect of MXF" wrong aspect i.mxf item 320e 0 0000001000000009
+check "aspect of MXF" wrong aspect i.mxf item 320e 0 0000001000000009 --raster 525i-imx
 check "base" wrong base i.mxf item 1502 0 0019
 check "base of QuickTime" wrong base p.mov atom tmcd 24 1e
 check "frames" wrong frames p.mov atom +stts 8 00000001
