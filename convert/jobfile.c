@@ -198,7 +198,23 @@ static weft_status set_scalar(const loading *l, const json_t *value, weft_error 
     return set_one(l, text, true, err);
 }
 
+/* [0, 0.5, 1] of an option that takes R,G,B. */
+static weft_status set_list(const loading *l, const json_t *array, weft_error *err) {
+    char text[1024] = "", room[400];
+    size_t used = 0;
+    for (size_t i = 0; i < json_array_size(array); i++) {
+        const json_t *value = json_array_get(array, i);
+        const char *one = scalar_text(value, room);
+        if (!one) return refuse_type(l, value, err);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? "," : "", one);
+        if (used >= sizeof text) return wrong(l, err, "\"%s\": the array is too long", l->key);
+    }
+    return set_one(l, text, true, err);
+}
+
 static weft_status set_member(const loading *l, json_t *value, weft_error *err) {
+    bool listed = !l->repeats && l->option.takes && strchr(l->option.takes, ',');
+    if (listed && json_is_array(value)) return set_list(l, value, err);
     if (l->repeats && json_is_object(value)) return set_pairs(l, value, err);
     if (!l->repeats || !json_is_array(value)) return set_scalar(l, value, err);
     weft_status status = WEFT_OK;

@@ -338,6 +338,9 @@ static void tell_changes(const weft_job *job, const wf_setup *s) {
     char text[512] = "";
     if (s->sink->tell) s->sink->tell(&s->sink_options, text, sizeof text);
     if (*text) wf_job_warn(job, "%s", text);
+    if (s->sink->layout == WF_LINEAR && job->legalize != WF_LEGAL_NONE)
+        wf_job_warn(job, "%s: --legalize is for codes; float samples stay as they are",
+                    job->output);
 }
 
 weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {

@@ -86,6 +86,23 @@ static void says_what_options_say(void **state) {
 }
 
 /* Of every option the words that it lists, or its preset, come through as they are. */
+static void arrays_are_lists(void **state) {
+    (void)state;
+    weft_job *job = loaded("{\"background\": [0, 0.5, \"1\"]}");
+    assert_true(job->background[0] == 0 && job->background[1] == 0.5f &&
+                job->background[2] == 1);
+    weft_job_free(job);
+    static const char *const bad[] = {"[]", "[0, 1]", "[0, null, 1]", "[[0, 1, 0]]"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char json[64];
+        weft_error err = {""};
+        job = weft_job_new();
+        int length = snprintf(json, sizeof json, "{\"background\": %s}", bad[i]);
+        assert_int_equal(load_bytes(job, json, (size_t)length, &err), WEFT_USAGE);
+        weft_job_free(job);
+    }
+}
+
 static void every_option_is_a_key(void **state) {
     (void)state;
     weft_option option;
@@ -222,6 +239,7 @@ static void hostile_files_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(says_what_options_say),
+        cmocka_unit_test(arrays_are_lists),
         cmocka_unit_test(every_option_is_a_key),
         cmocka_unit_test(paths_are_relative_to_the_file),
         cmocka_unit_test(later_ones_win),
