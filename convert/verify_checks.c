@@ -401,9 +401,9 @@ static unsigned nature_of(const wf_subject *s) {
 
 /* Whether the profile has the member that a check needs. */
 static bool is_asked(const struct check *check, const wf_profile *profile) {
-    const char *member = (const char *)profile + check->profile;
     if (!check->profile) return true;
     if (!profile) return false;
+    const char *member = (const char *)profile + check->profile;
     return check->number ? *(const int *)(const void *)member != 0
                          : *(const char *const *)(const void *)member != NULL;
 }
