@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "color/chroma.h"
+#include "color/legal.h"
 #include "color/line.h"
 
 #define LEAST_LUMA (-1 / 16.0f)
@@ -18,6 +19,7 @@ size_t wf_adjust_scratch(size_t width_px) {
 typedef struct pixel {
     const wf_display *display;
     float difference[3]; /* R' - Y', G' - Y', B' - Y' */
+    float least, most;   /* of Y' */
 } pixel;
 
 static float luminance(const pixel *p, float y, float *slope) {
@@ -33,19 +35,26 @@ static float luminance(const pixel *p, float y, float *slope) {
 }
 
 /* Newton's steps, kept between what is known to be too dark and too bright: luminance grows
- * with luma, though it stands still where all colors are black. */
+ * with luma, though it stands still where all colors are black. An end is tried before what
+ * lies between is halved: often no code gives the light wanted. */
 static float solve(const pixel *p, float y, float want) {
-    float dark = LEAST_LUMA, bright = MOST_LUMA, slope;
-    if (y < dark || y > bright) y = 0.5f;
+    float dark = p->least, bright = p->most, slope;
+    bool tried_dark = false, tried_bright = false;
+    if (y < dark || y > bright) y = 0.5f * (dark + bright);
     for (int n = 0; n < STEPS; n++) {
         float error = luminance(p, y, &slope) - want;
         if (fabsf(error) < NEAR) return y;
         if (error > 0)
-            bright = y;
+            bright = y, tried_bright = true;
         else
-            dark = y;
+            dark = y, tried_dark = true;
+        if (bright <= dark) return y;
         float next = slope > 0 ? y - error / slope : dark;
-        y = next > dark && next < bright ? next : 0.5f * (dark + bright);
+        if (next >= bright)
+            next = tried_bright ? 0.5f * (dark + bright) : bright;
+        else if (next <= dark)
+            next = tried_dark ? 0.5f * (dark + bright) : dark;
+        y = next;
     }
     return y;
 }
@@ -56,12 +65,28 @@ static bool is_kept(const pixel *p, float y, const float rgb[3]) {
     return off < KEPT;
 }
 
+/* Light is not had by leaving the limits, which would cost the saturation of all around: Y'
+ * goes no further out than they or it itself are. */
+static void bound(pixel *p, const wf_legal_range *legal, float y) {
+    float up = 0, down = 0;
+    p->least = LEAST_LUMA;
+    p->most = MOST_LUMA;
+    if (!legal) return;
+    for (int c = 0; c < 3; c++) {
+        up = fmaxf(up, p->difference[c]);
+        down = fminf(down, p->difference[c]);
+    }
+    p->least = fminf(MOST_LUMA, fmaxf(LEAST_LUMA, fminf(y, legal->low - down)));
+    p->most = fmaxf(p->least, fminf(MOST_LUMA, fmaxf(y, legal->high - up)));
+}
+
 void wf_adjust_luma(const wf_encoding *e, float *const ycbcr[3], const float *const rgb[3],
                     float *scratch) {
     size_t width = (size_t)e->width_px;
     float *cb = scratch, *cr = scratch + width;
     const wf_chroma_filter *half_band = wf_chroma_filter_of(WF_CHROMA_BT601);
     wf_ycbcr w = wf_ycbcr_of(e->luma);
+    const wf_legal_range range = wf_legal_range_of(e);
     float kg = 1 - w.kr - w.kb;
     wf_chroma_interpolate(half_band, ycbcr[1], width, cb);
     wf_chroma_interpolate(half_band, ycbcr[2], width, cr);
@@ -69,9 +94,10 @@ void wf_adjust_luma(const wf_encoding *e, float *const ycbcr[3], const float *co
         float red = cr[x] / w.cr_scale, blue = cb[x] / w.cb_scale, *y = &ycbcr[0][x];
         const float was[3] = {rgb[0][x], rgb[1][x], rgb[2][x]};
         const float *const one[3] = {&was[0], &was[1], &was[2]};
-        const pixel p = {e->display, {red, -(w.kr * red + w.kb * blue) / kg, blue}};
+        pixel p = {e->display, {red, -(w.kr * red + w.kb * blue) / kg, blue}, 0, 0};
         if (is_kept(&p, *y, was)) continue;
         float light;
+        bound(&p, e->legalize == WF_LEGAL_R103 ? &range : NULL, *y);
         wf_display_luminance(e->display, one, &light, 1);
         *y = solve(&p, *y, light);
     }

@@ -9,7 +9,7 @@
 
 #define SOFT     (2.5f / 876) /* where the clip of luma is soft: less than a code is lost */
 #define REACH    4     /* pixels to each side over which saturation is compressed alike */
-#define ROUNDS   8     /* of compression: each leaves less to the next */
+#define ROUNDS   16    /* of compression: each leaves less to the next */
 #define GREY     1e-4f /* chroma that is rounded to none */
 #define ROUNDING 1e-6f /* of floats is no offense */
 
@@ -56,6 +56,11 @@ static limits limits_of(const wf_encoding *e) {
     /* The tails of interpolation reach far into white, but not as far as to a code. */
     if (!e->full_range) l.luma_high -= 0.6f / (e->bits > 8 ? 876 : 219);
     return l;
+}
+
+wf_legal_range wf_legal_range_of(const wf_encoding *e) {
+    limits l = limits_of(e);
+    return (wf_legal_range){l.low, l.high};
 }
 
 /* Beyond a knee signals come ever closer to the limit. */
@@ -146,14 +151,12 @@ static bool find_factors(const wf_encoding *e, const limits *l, float *const ycb
     return true;
 }
 
-/* The least of the pixels within reach. */
+/* The least of the pixels within reach: one pass for each distance, which vectorize. */
 static void erode(const float *from, float *to, ptrdiff_t width) {
-    for (ptrdiff_t x = 0; x < width; x++) {
-        ptrdiff_t first = x > REACH ? x - REACH : 0,
-                  last = x + REACH < width ? x + REACH : width - 1;
-        float value = 1;
-        for (ptrdiff_t i = first; i <= last; i++) value = least(value, from[i]);
-        to[x] = value;
+    memcpy(to, from, (size_t)width * sizeof *to);
+    for (ptrdiff_t off = 1; off <= REACH; off++) {
+        for (ptrdiff_t x = off; x < width; x++) to[x] = least(to[x], from[x - off]);
+        for (ptrdiff_t x = 0; x + off < width; x++) to[x] = least(to[x], from[x + off]);
     }
 }
 

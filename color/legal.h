@@ -9,6 +9,13 @@
 #define WF_R103_LOW  ((20 - 64) / 876.0)
 #define WF_R103_HIGH ((984 - 64) / 876.0)
 
+/* What r103 keeps R', G' and B' to: the limits less what rounding to codes may take. */
+typedef struct wf_legal_range {
+    float low, high;
+} wf_legal_range;
+
+wf_legal_range wf_legal_range_of(const wf_encoding *encoding);
+
 /* Samples of scratch that the two below need for a line. */
 size_t wf_legal_scratch(size_t width_px);
 

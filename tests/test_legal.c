@@ -146,6 +146,108 @@ static void little_is_left_outside(void **unused) {
                 }
 }
 
+/* Patches of the primaries of ACEScg, their sums, white and black, as BT.1886 signals of Rec.
+ * 709 (negative light is none), `gain` times as bright as white; every second line has pixels
+ * of other colors strewn about, as mending leaves. The matrix: AP1 to BT.709, D60 to D65. */
+static void fill_primaries(line *l, int number, double gain) {
+    static const double m[3][3] = {{1.70505, -0.62179, -0.08326},
+                                   {-0.13026, 1.14080, -0.01055},
+                                   {-0.02400, -0.12897, 1.15297}};
+    int patch = 2 + number % 12;
+    uint32_t state = (uint32_t)number * 7919 + 1;
+    for (int x = 0; x < WIDTH; x++) {
+        uint32_t which = (uint32_t)(x / patch + number / 12), stray = next(&state);
+        if (number % 2 && stray % 25 == 0) which = stray >> 8;
+        for (int c = 0; c < 3; c++) {
+            double light = 0;
+            for (int p = 0; p < 3; p++) light += (which >> p & 1) * m[c][p];
+            l->rgb[c][x] = (float)pow(gain * fmax(light, 0), 1 / 2.4);
+        }
+    }
+}
+
+typedef struct primaries_left {
+    double outside, chroma; /* share of the pixels; mean saturation */
+} primaries_left;
+
+static primaries_left leave_primaries(wf_encoding e, double gain) {
+    static coded c;
+    line l;
+    primaries_left left = {0};
+    const double pixels = 2.0 * LINES * WIDTH;
+    e.legalize = WF_LEGAL_R103;
+    for (int n = 0; n < 2 * LINES; n++) {
+        double rgb[3];
+        fill_primaries(&l, n, gain);
+        encode(e, &l, &c);
+        for (int x = 0; x < WIDTH; x++) {
+            to_rgb(e.luma, &c, x, rgb);
+            left.outside += outside(rgb, WF_R103_LOW, WF_R103_HIGH) / pixels;
+            left.chroma += hypot(c.signal[1][x], c.signal[2][x]) / pixels;
+        }
+    }
+    return left;
+}
+
+/* Adjusting aims at light that no code holds: it must neither leave more outside nor cost more
+ * saturation than plain decimation does. */
+static void primaries_are_mended(void **unused) {
+    (void)unused;
+    static wf_display display;
+    static const double gains[] = {0.6, 1, 3, 10};
+    double most = 0, least_kept = 1;
+    wf_display_init(&display, WF_PRIMARIES_709, WF_TRANSFER_BT1886);
+    for (size_t i = 0; i < sizeof gains / sizeof *gains; i++)
+        for (int bits = 8; bits <= 12; bits += 2) {
+            wf_encoding e = {
+                .luma = WF_LUMA_709, .ycbcr = true, .bits = bits, .display = &display};
+            primaries_left plain = leave_primaries(e, gains[i]);
+            e.chroma = WF_CHROMA_LUMA_ADJUST;
+            primaries_left adjusted = leave_primaries(e, gains[i]);
+            most = fmax(most, fmax(plain.outside, adjusted.outside));
+            least_kept = fmin(least_kept, adjusted.chroma / plain.chroma);
+        }
+    print_message("primaries of ACEScg: at most %.5f outside; adjusted luma keeps %.3f of "
+                  "their saturation\n",
+                  most, least_kept);
+    assert_true(most <= 0.0005);
+    assert_true(least_kept > 0.95);
+}
+
+/* Codes of 4:2:2 that are within the limits already are the same codes with r103. */
+static int count_kept_lines(wf_encoding e, double most, double margin) {
+    static coded plain, legal;
+    line l;
+    int seen = 0;
+    for (int n = 0; n < 4 * LINES; n++) {
+        double rgb[3];
+        int count = 0;
+        fill(&l, n, most);
+        e.legalize = WF_LEGAL_NONE;
+        encode(e, &l, &plain);
+        for (int x = 0; x < WIDTH; x++) {
+            to_rgb(e.luma, &plain, x, rgb);
+            count += outside(rgb, WF_R103_LOW + margin, WF_R103_HIGH - margin);
+        }
+        e.legalize = WF_LEGAL_R103;
+        encode(e, &l, &legal);
+        if (count) continue;
+        seen++;
+        for (int p = 0; p < 3; p++)
+            assert_memory_equal(plain.code[p], legal.code[p],
+                                (p ? WIDTH / 2 : WIDTH) * sizeof **plain.code);
+    }
+    return seen;
+}
+
+static void legal_lines_of_422_stay(void **unused) {
+    (void)unused;
+    wf_encoding e = {.luma = WF_LUMA_709, .ycbcr = true, .bits = 10};
+    assert_true(count_kept_lines(e, 0.7, 0.002) > LINES / 2);
+    e.dither = WF_DITHER_TPDF;
+    assert_true(count_kept_lines(e, 0.4, 0.012) > LINES / 4);
+}
+
 static void legal_colors_stay(void **unused) {
     (void)unused;
     static coded plain, legal;
@@ -300,7 +402,9 @@ static void greys_are_not_adjusted(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(little_is_left_outside),
+        cmocka_unit_test(primaries_are_mended),
         cmocka_unit_test(legal_colors_stay),
+        cmocka_unit_test(legal_lines_of_422_stay),
         cmocka_unit_test(luma_and_hue_are_kept),
         cmocka_unit_test(pictures_are_kept_in_hue),
         cmocka_unit_test(light_of_colored_edges_is_kept),
