@@ -1,11 +1,13 @@
 #include "convert/frames.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
 /* The planes of a frame. */
 typedef struct room {
     void *plane[3];
+    _Atomic int64_t outside; /* pixels of it that r103 has left so */
 } room;
 
 struct wf_frames {
@@ -105,9 +107,12 @@ static int line_in_frame(const wf_frames *f, int64_t field, int line) {
     return wf_raster_parity(raster, field) + line * wf_raster_line_step(raster);
 }
 
+static room *room_of(const wf_frames *f, int64_t field) {
+    return &f->rooms[field / wf_raster_fields_per_frame(&f->job->raster) % f->count];
+}
+
 static void *frame_line(const wf_frames *f, int64_t field, int c, int line) {
-    int per_frame = wf_raster_fields_per_frame(&f->job->raster);
-    const room *frame = &f->rooms[field / per_frame % f->count];
+    const room *frame = room_of(f, field);
     size_t at = (size_t)line_in_frame(f, field, line) * f->stride[c];
     return (char *)frame->plane[c] + at * sample_bytes(f->setup);
 }
@@ -139,6 +144,7 @@ void wf_frames_line(const wf_frames *f, wf_finisher *finisher, int64_t field, in
         f->job->legal_pixels += legal.pixels;
         f->job->legal_touched += legal.touched;
         f->job->legal_outside += legal.outside;
+        room_of(f, field)->outside += legal.outside;
     }
     finisher->color_s += wf_now_s() - start;
 }
@@ -156,12 +162,19 @@ static void tell_progress(const wf_frames *f) {
     f->job->progress(&progress, f->job->progress_user);
 }
 
+/* The room is the next frame's after this. */
+static void note_worst(const wf_frames *f, room *frame) {
+    int64_t outside = atomic_exchange(&frame->outside, 0);
+    if (outside > f->job->legal_worst) f->job->legal_worst = outside;
+}
+
 weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
     wf_frame frame = {.index = index};
     for (int c = 0; c < 3; c++) {
         frame.plane[c] = f->rooms[index % f->count].plane[c];
         frame.stride[c] = f->stride[c];
     }
+    note_worst(f, &f->rooms[index % f->count]);
     double start = wf_now_s();
     weft_status status = f->setup->sink->write(f->sink, &frame, err);
     f->write_s += wf_now_s() - start;

@@ -84,8 +84,9 @@ struct weft_job {
     void *warning_user;
     volatile sig_atomic_t cancelled;
     _Atomic int64_t legal_pixels, legal_touched, legal_outside; /* of r103, in the last run */
-    char *report;                                               /* JSON of the last run */
-    char *plan; /* of a dry run, for people; NULL: there is none */
+    _Atomic int64_t legal_worst; /* most pixels left outside in a frame */
+    char *report;                /* JSON of the last run */
+    char *plan;                  /* of a dry run, for people; NULL: there is none */
 };
 
 /* "convert", "render", "trace". */

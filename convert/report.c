@@ -80,6 +80,7 @@ static void add_legal(wf_json *json, const wf_report_legal *legal) {
         double pixels = (double)legal->counts.pixels;
         wf_json_real(json, "touched_share", (double)legal->counts.touched / pixels);
         wf_json_real(json, "outside_share", (double)legal->counts.outside / pixels);
+        wf_json_real(json, "worst_frame_share", legal->worst_share);
     }
     wf_json_close(json);
 }

@@ -16,6 +16,7 @@ typedef struct wf_report_legal {
     const char *range;  /* "narrow", "full" */
     int bits;
     wf_legal_counts counts; /* of r103; pixels 0: none were counted */
+    double worst_share;     /* of a frame, left outside: the most of all frames */
 } wf_report_legal;
 
 /* What a run has to tell (cli.md, Report). Everything is borrowed; NULL, 0 and {0} mean "not

@@ -188,7 +188,7 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     err->text[0] = '\0';
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
-    job->legal_pixels = job->legal_touched = job->legal_outside = 0;
+    job->legal_pixels = job->legal_touched = job->legal_outside = job->legal_worst = 0;
     if (!status) wf_job_settle(job);
     if (!status) status = runs[job->command](job, &report, err);
     if (!status) tell_outside(job);

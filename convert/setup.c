@@ -422,7 +422,9 @@ wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
         .dither = job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
         .range = s->sink_options.full_range ? "full" : "narrow",
         .bits = s->sink_options.bits,
-        .counts = {job->legal_pixels, job->legal_touched, job->legal_outside}};
+        .counts = {job->legal_pixels, job->legal_touched, job->legal_outside},
+        .worst_share =
+            (double)job->legal_worst / ((double)job->raster.width_px * job->raster.lines)};
 }
 
 void wf_setup_free(wf_setup *s) {
