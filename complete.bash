@@ -1,4 +1,0 @@
-. ./weft.bash
-COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
-_weft
-printf '%s\n' "${COMPREPLY[@]}"
