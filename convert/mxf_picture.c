@@ -115,12 +115,12 @@ static void line_map(const wf_raster *r, int out[2]) {
     int field_lines = (r->lines / 2 + 2) / 2 * 2;
     out[0] = r->line1;
     out[1] = r->line2;
-    if (r->scan == WF_PROGRESSIVE) {
+    if (r->scan != WF_INTERLACED) {
         out[0] = r->lines == 1080 ? 42 : r->lines == 720 ? 26 : 1;
         out[1] = 0;
     } else if (!r->total_lines) {
         out[0] = 1;
-        out[1] = 1 + field_lines + (r->top_first || r->scan == WF_SEGMENTED);
+        out[1] = 1 + field_lines + r->top_first;
     }
 }
 
@@ -131,16 +131,16 @@ static unsigned signal_standard(const wf_raster *r) {
     return r->width_px == 1280 && r->lines == 720 ? 5 : 0;
 }
 
-/* Full frame, separate fields, segmented frame. Fields that are woven, as these are, are "mixed
- * fields" by the letter of ST 377-1, which MediaInfo shows as progressive and ffmpeg as
- * unknown. "Separate fields", as ffmpeg itself writes for them, is what readers show as
- * interlaced, and in the right order; none of them takes it to mean that the lines are sorted.
- * Heights are then a field's. */
-enum { FULL_FRAME = 0, SEPARATE_FIELDS = 1, SEGMENTED_FRAME = 4 };
+/* Full frame, separate fields. Fields that are woven, as these are, are "mixed fields" by the
+ * letter of ST 377-1, which MediaInfo shows as progressive and ffmpeg as unknown. "Separate
+ * fields", as ffmpeg itself writes for them, is what readers show as interlaced, and in the
+ * right order; none of them takes it to mean that the lines are sorted. Heights are then a
+ * field's. Segmented frames are stored whole, and are progressive to all readers: "segmented
+ * frame" they would show as interlaced. */
+enum { FULL_FRAME = 0, SEPARATE_FIELDS = 1 };
 
 static unsigned frame_layout(const wf_raster *r) {
-    if (r->scan == WF_PROGRESSIVE) return FULL_FRAME;
-    return r->scan == WF_SEGMENTED ? SEGMENTED_FRAME : SEPARATE_FIELDS;
+    return r->scan == WF_INTERLACED ? SEPARATE_FIELDS : FULL_FRAME;
 }
 
 static void put_geometry(wf_bytes *b, const wf_raster *r) {

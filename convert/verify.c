@@ -76,6 +76,8 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     if (status || is_contained(&s.figures.info))
         s.contained = !wf_claims_read(path, &s.claims, &untold);
     find_raster(&s);
+    if (!status && s.figures.info.layout != WF_YCBCR)
+        (void)wf_frame_labels_read(path, s.raster.frame_rate, &s.labels, &untold);
     out->raster = s.raster;
     wf_run_checks(&s, out);
     return WEFT_OK;

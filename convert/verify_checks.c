@@ -9,14 +9,14 @@
 
 #define R103_SHARE 0.01 /* EBU R 103: the share of the picture that may be outside */
 
-static wf_verdict say(wf_finding *f, bool right, const char *is, const char *should) {
+wf_verdict wf_say(wf_finding *f, bool right, const char *is, const char *should) {
     snprintf(f->is, sizeof f->is, "%s", is);
     snprintf(f->should, sizeof f->should, "%s", right ? "" : should);
     return right ? WF_RIGHT : WF_WRONG;
 }
 
-static wf_verdict open_question(wf_finding *f, const char *is) {
-    say(f, true, is, "");
+wf_verdict wf_open_question(wf_finding *f, const char *is) {
+    wf_say(f, true, is, "");
     return WF_OPEN;
 }
 
@@ -34,44 +34,44 @@ bool wf_in_words(const char *words, const char *name) {
 
 static wf_verdict check_container(const wf_subject *s, wf_finding *f) {
     const char *is = s->contained ? s->claims.container : "no container";
-    return say(f, !strcmp(is, s->profile->container), is, s->profile->container);
+    return wf_say(f, !strcmp(is, s->profile->container), is, s->profile->container);
 }
 
 static wf_verdict check_codec(const wf_subject *s, wf_finding *f) {
     const char *is = s->contained ? s->claims.codec : s->figures.info.format;
-    return say(f, !strcmp(is, s->profile->codec), is, s->profile->codec);
+    return wf_say(f, !strcmp(is, s->profile->codec), is, s->profile->codec);
 }
 
 static wf_verdict check_bits(const wf_subject *s, wf_finding *f) {
     char is[16], should[16];
     snprintf(is, sizeof is, "%d", s->figures.info.bits);
     snprintf(should, sizeof should, "%d", s->profile->bits);
-    return say(f, s->figures.info.bits == s->profile->bits, is, should);
+    return wf_say(f, s->figures.info.bits == s->profile->bits, is, should);
 }
 
 static wf_verdict check_channels(const wf_subject *s, wf_finding *f) {
     char is[64], should[64];
     snprintf(is, sizeof is, "%d channels", s->claims.sound_channels);
     snprintf(should, sizeof should, "%d or more", s->profile->sound_channels);
-    return say(f, s->claims.sound_channels >= s->profile->sound_channels, is, should);
+    return wf_say(f, s->claims.sound_channels >= s->profile->sound_channels, is, should);
 }
 
 static wf_verdict check_tracks(const wf_subject *s, wf_finding *f) {
     char is[16];
     snprintf(is, sizeof is, "%d", s->claims.sound_channels);
-    return say(f, wf_in_words(s->profile->channels, is), is, s->profile->channels);
+    return wf_say(f, wf_in_words(s->profile->channels, is), is, s->profile->channels);
 }
 
 static wf_verdict check_sound_bits(const wf_subject *s, wf_finding *f) {
     char is[16], should[16];
     snprintf(is, sizeof is, "%d", s->claims.sound_bits);
     snprintf(should, sizeof should, "%d", s->profile->sound_bits);
-    return say(f, s->claims.sound_bits == s->profile->sound_bits, is, should);
+    return wf_say(f, s->claims.sound_bits == s->profile->sound_bits, is, should);
 }
 
 static wf_verdict check_start(const wf_subject *s, wf_finding *f) {
     const char *is = *s->claims.timecode ? s->claims.timecode : "none";
-    return say(f, !strcmp(is, s->profile->start), is, s->profile->start);
+    return wf_say(f, !strcmp(is, s->profile->start), is, s->profile->start);
 }
 
 /* ---- The raster ---- */
@@ -85,8 +85,8 @@ static wf_verdict check_raster(const wf_subject *s, wf_finding *f) {
     char is[120];
     const wf_raster *r = &s->figures.info.raster;
     tell_raster(s->raster_known ? &s->raster : r, is, sizeof is);
-    return say(f, s->raster_known, is,
-               "one of those that 'weft rasters' lists, or --raster says what it is");
+    return wf_say(f, s->raster_known, is,
+                  "one of those that 'weft rasters' lists, or --raster says what it is");
 }
 
 static wf_verdict check_size(const wf_subject *s, wf_finding *f) {
@@ -94,7 +94,7 @@ static wf_verdict check_size(const wf_subject *s, wf_finding *f) {
     const wf_video_info *v = &s->figures.info;
     snprintf(is, sizeof is, "%dx%d", v->width_px, v->lines + v->interval_lines);
     snprintf(should, sizeof should, "%dx%d", s->raster.width_px, s->coded_lines);
-    return say(f, !strcmp(is, should), is, should);
+    return wf_say(f, !strcmp(is, should), is, should);
 }
 
 static wf_verdict check_rate(const wf_subject *s, wf_finding *f) {
@@ -102,7 +102,7 @@ static wf_verdict check_rate(const wf_subject *s, wf_finding *f) {
     wf_rational rate = s->figures.info.raster.frame_rate, want = s->raster.frame_rate;
     snprintf(is, sizeof is, "%" PRId64 "/%" PRId64, rate.num, rate.den);
     snprintf(should, sizeof should, "%" PRId64 "/%" PRId64, want.num, want.den);
-    return say(f, wf_ratio_equal(rate, want), is, should);
+    return wf_say(f, wf_ratio_equal(rate, want), is, should);
 }
 
 static const char *order_text(bool interlaced, bool top_first) {
@@ -119,7 +119,7 @@ static wf_verdict check_flags(const wf_subject *s, wf_finding *f) {
     bool interlaced = s->contained ? s->claims.interlaced : v->raster.scan == WF_INTERLACED;
     bool top_first = s->contained ? s->claims.top_first : v->raster.top_first;
     const char *is = known ? order_text(interlaced, top_first) : "not said";
-    return say(f, !strcmp(is, wanted_order(s)), is, wanted_order(s));
+    return wf_say(f, !strcmp(is, wanted_order(s)), is, wanted_order(s));
 }
 
 /* Frames of an interlaced stream may be coded as progressive; those coded as fields have its
@@ -127,19 +127,19 @@ static wf_verdict check_flags(const wf_subject *s, wf_finding *f) {
 static wf_verdict check_coded(const wf_subject *s, wf_finding *f) {
     const char *is = order_text(s->claims.coded_fields, s->claims.coded_top_first);
     if (!s->claims.coded_fields || !s->claims.interlaced)
-        return open_question(f, "the first frame is not coded as fields");
+        return wf_open_question(f, "the first frame is not coded as fields");
     const char *said = order_text(true, s->claims.top_first);
-    return say(f, !strcmp(is, said), is, said);
+    return wf_say(f, !strcmp(is, said), is, said);
 }
 
 static wf_verdict check_order(const wf_subject *s, wf_finding *f) {
     const char *is = s->figures.order_verdict;
     bool fields = s->raster.scan == WF_INTERLACED;
-    if (!is) return open_question(f, "a single frame has none");
+    if (!is) return wf_open_question(f, "a single frame has none");
     bool ordered = !strcmp(is, "tff") || !strcmp(is, "bff");
-    if (!ordered && fields) return open_question(f, is);
+    if (!ordered && fields) return wf_open_question(f, is);
     bool right = fields ? !strcmp(is, s->raster.top_first ? "tff" : "bff") : !ordered;
-    return say(f, right, is, fields ? (s->raster.top_first ? "tff" : "bff") : "progressive");
+    return wf_say(f, right, is, fields ? (s->raster.top_first ? "tff" : "bff") : "progressive");
 }
 
 /* ---- What containers hold ---- */
@@ -152,7 +152,7 @@ static wf_verdict check_fiel(const wf_subject *s, wf_finding *f) {
         snprintf(is, sizeof is, "{%d,%d}", s->claims.fiel[0], s->claims.fiel[1]);
     snprintf(should, sizeof should, "{%d,%d}", interlaced ? 2 : 1, detail);
     bool left_out = !s->claims.has_fiel && !interlaced;
-    return say(f, left_out || !strcmp(is, should), is, should);
+    return wf_say(f, left_out || !strcmp(is, should), is, should);
 }
 
 static wf_verdict check_atoms(const wf_subject *s, wf_finding *f) {
@@ -160,18 +160,18 @@ static wf_verdict check_atoms(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%s%s%s", c->has_pasp ? "pasp " : "", c->has_colr ? "colr " : "",
              c->has_clap ? "clap" : "");
-    return say(f, c->has_pasp && c->has_colr, *is ? is : "none", "pasp and colr");
+    return wf_say(f, c->has_pasp && c->has_colr, *is ? is : "none", "pasp and colr");
 }
 
 static wf_verdict check_clap(const wf_subject *s, wf_finding *f) {
     char is[48], should[48];
     uint32_t width, lines;
     const int64_t *clean = s->claims.clean;
-    if (!s->claims.has_clap) return open_question(f, "none");
+    if (!s->claims.has_clap) return wf_open_question(f, "none");
     wf_clean_aperture(&s->raster, &width, &lines);
     snprintf(is, sizeof is, "%.6gx%.6g", (double)clean[0] / 65536, (double)clean[1] / 65536);
     snprintf(should, sizeof should, "%ux%u", width, lines);
-    return say(f, !strcmp(is, should), is, should);
+    return wf_say(f, !strcmp(is, should), is, should);
 }
 
 /* The raster's map, moved up by the lines that are coded above the picture. */
@@ -179,12 +179,12 @@ static wf_verdict check_line_map(const wf_subject *s, wf_finding *f) {
     char is[48] = "none", should[48];
     int above = (s->coded_lines - s->raster.lines) / 2;
     if (!s->raster.total_lines || s->raster.scan != WF_INTERLACED)
-        return open_question(f, "the raster has none");
+        return wf_open_question(f, "the raster has none");
     if (s->claims.has_line_map)
         snprintf(is, sizeof is, "{%d,%d}", s->claims.line_map[0], s->claims.line_map[1]);
     snprintf(should, sizeof should, "{%d,%d}", s->raster.line1 - above,
              s->raster.line2 - above);
-    return say(f, !strcmp(is, should), is, should);
+    return wf_say(f, !strcmp(is, should), is, should);
 }
 
 static wf_verdict check_layout(const wf_subject *s, wf_finding *f) {
@@ -193,29 +193,29 @@ static wf_verdict check_layout(const wf_subject *s, wf_finding *f) {
     int layout = s->claims.frame_layout;
     const char *is = layout >= 0 && layout < 5 ? names[layout] : "none";
     if (s->raster.scan == WF_INTERLACED)
-        return say(f, layout == 1 || layout == 3, is, "separate or mixed fields");
+        return wf_say(f, layout == 1 || layout == 3, is, "separate or mixed fields");
     bool segmented = s->raster.scan == WF_SEGMENTED && layout == 4;
-    return say(f, layout == 0 || segmented, is, "full frame");
+    return wf_say(f, layout == 0 || segmented, is, "full frame");
 }
 
 static wf_verdict check_pattern(const wf_subject *s, wf_finding *f) {
-    return say(f, !strcmp(s->claims.pattern, "OP1a"), s->claims.pattern, "OP1a");
+    return wf_say(f, !strcmp(s->claims.pattern, "OP1a"), s->claims.pattern, "OP1a");
 }
 
 static wf_verdict check_dominance(const wf_subject *s, wf_finding *f) {
     char is[16];
     int first = s->claims.dominance;
-    if (first < 0) return open_question(f, "not said");
+    if (first < 0) return wf_open_question(f, "not said");
     snprintf(is, sizeof is, "%d", first);
-    return say(f, first == 1, is, "1, as field 1 is the first in time");
+    return wf_say(f, first == 1, is, "1, as field 1 is the first in time");
 }
 
 static wf_verdict check_siting(const wf_subject *s, wf_finding *f) {
     char is[16];
-    if (s->claims.siting < 0) return open_question(f, "not said");
+    if (s->claims.siting < 0) return wf_open_question(f, "not said");
     snprintf(is, sizeof is, "%d", s->claims.siting);
     bool right = s->claims.siting == 0 || s->claims.siting == 4; /* 4: as Rec. 601 has it */
-    return say(f, right, is, "0, with the first luma sample of a pair");
+    return wf_say(f, right, is, "0, with the first luma sample of a pair");
 }
 
 static bool of_601(const wf_raster *r) {
@@ -236,7 +236,7 @@ static wf_verdict check_aspect(const wf_subject *s, wf_finding *f) {
     if (have.den) snprintf(is, sizeof is, "%" PRId64 ":%" PRId64, have.num, have.den);
     snprintf(should, sizeof should, "%" PRId64 ":%" PRId64, want.num, want.den);
     bool square = !have.den && want.num == want.den; /* what is not said is 1:1 */
-    return say(f, square || (have.den && wf_ratio_equal(have, want)), is, should);
+    return wf_say(f, square || (have.den && wf_ratio_equal(have, want)), is, should);
 }
 
 static bool same_tags(wf_color_tags a, wf_color_tags b) {
@@ -260,53 +260,7 @@ static wf_verdict check_colors(const wf_subject *s, wf_finding *f) {
     for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++)
         right |=
             s->claims.tagged && same_tags(have, wf_color_tags_of(spaces[i], s->raster.matrix));
-    return say(f, right, is, should);
-}
-
-/* ---- Time ---- */
-
-static wf_verdict check_timecode(const wf_subject *s, wf_finding *f) {
-    wf_timecode label;
-    char why[160] = "HH:MM:SS:FF of the first frame";
-    const char *is = *s->claims.timecode ? s->claims.timecode : "none";
-    bool right = wf_parse_timecode(is, &label) &&
-                 wf_timecode_check(&label, s->raster.frame_rate, why, sizeof why);
-    return say(f, right, is, why);
-}
-
-/* Labels a second, and whether some are dropped: 24, 30 and 60 for the rates over 1001. */
-static wf_verdict check_base(const wf_subject *s, wf_finding *f) {
-    char is[48], should[64];
-    bool drop = s->claims.timecode_drop;
-    int base = s->claims.timecode_base;
-    double rate = wf_ratio_value(s->raster.frame_rate);
-    int want = (int)ceil(rate - 0.001);
-    bool may_drop = s->raster.frame_rate.den == 1001 && want % 30 == 0;
-    if (!base) return open_question(f, "not said");
-    snprintf(is, sizeof is, "%d%s", base, drop ? ", drop frame" : "");
-    snprintf(should, sizeof should, "%d%s", want, may_drop ? "" : ", no frames dropped");
-    return say(f, base == want && (!drop || may_drop), is, should);
-}
-
-static wf_verdict check_frames(const wf_subject *s, wf_finding *f) {
-    char is[64], should[64];
-    double said = s->claims.frames > 0 ? (double)s->claims.frames
-                                       : s->claims.video_s * wf_ratio_value(s->claims.rate);
-    if (said <= 0) return open_question(f, "the container does not say");
-    snprintf(is, sizeof is, "%.0f said, %" PRId64 " there", said, s->figures.frames);
-    snprintf(should, sizeof should, "as many as are said");
-    return say(f, fabs(said - (double)s->figures.frames) < 0.5, is, should);
-}
-
-static wf_verdict check_sound(const wf_subject *s, wf_finding *f) {
-    char is[96], should[96];
-    double frame_s = 1 / wf_ratio_value(s->raster.frame_rate);
-    double video_s = (double)s->figures.frames * frame_s;
-    snprintf(is, sizeof is, "%d channels of %d Hz, %.3f s", s->claims.sound_channels,
-             s->claims.sound_rate, s->claims.sound_s);
-    snprintf(should, sizeof should, "48000 Hz, as long as the video, %.3f s", video_s);
-    bool long_enough = !(s->claims.sound_s > 0) || fabs(s->claims.sound_s - video_s) < frame_s;
-    return say(f, s->claims.sound_rate == 48000 && long_enough, is, should);
+    return wf_say(f, right, is, should);
 }
 
 /* ---- Pixels ---- */
@@ -314,14 +268,14 @@ static wf_verdict check_sound(const wf_subject *s, wf_finding *f) {
 static wf_verdict check_reading(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%" PRId64 " frames", s->figures.frames);
-    return say(f, !s->trouble, s->trouble ? s->trouble : is, "frames to the end");
+    return wf_say(f, !s->trouble, s->trouble ? s->trouble : is, "frames to the end");
 }
 
 static wf_verdict check_levels(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%.3g %% of the picture is outside EBU R 103",
              100 * s->figures.r103_share);
-    return say(f, s->figures.r103_share <= R103_SHARE, is, "at most 1 %");
+    return wf_say(f, s->figures.r103_share <= R103_SHARE, is, "at most 1 %");
 }
 
 /* Codecs that lose something overshoot, and what receives them clips. */
@@ -331,7 +285,7 @@ static wf_verdict check_reserved(const wf_subject *s, wf_finding *f) {
     bool exact = !s->contained || wf_in_words("v210 ffv1 rawvideo", s->claims.codec);
     snprintf(is, sizeof is, "%.3g %% of the picture%s", 100 * share,
              exact ? "" : ", as it is decoded");
-    return share > 0 && !exact ? open_question(f, is) : say(f, share <= 0, is, "none");
+    return share > 0 && !exact ? wf_open_question(f, is) : wf_say(f, share <= 0, is, "none");
 }
 
 /* ---- The table ---- */
@@ -345,6 +299,7 @@ typedef enum applies {
     TO_MXF = 16,
     TO_SOUND = 32,
     TO_FIELDS = 64,
+    TO_FILES = 128, /* of an image sequence */
 } applies;
 
 static const struct check {
@@ -352,7 +307,7 @@ static const struct check {
     unsigned needs;
     size_t profile; /* offset of the text or number it is asked by; 0: by every file */
     bool number;
-    wf_verdict (*run)(const wf_subject *s, wf_finding *f);
+    wf_check_fn *run;
     const char *by; /* what demands it; %s is the raster, or the profile's */
 } checks[] = {
 #define ASKED(member) offsetof(wf_profile, member)
@@ -376,11 +331,14 @@ static const struct check {
     {"line map", TO_MXF | TO_RASTER, 0, false, check_line_map, "SMPTE ST 377-1, for %s"},
     {"dominance", TO_MXF | TO_FIELDS, 0, false, check_dominance, "SMPTE ST 377-1, for %s"},
     {"siting", TO_MXF, 0, false, check_siting, "Rec. ITU-R BT.601 and BT.709"},
-    {"timecode", TO_CONTAINER | TO_RASTER, 0, false, check_timecode, "SMPTE ST 12-1, for %s"},
-    {"base", TO_CONTAINER | TO_RASTER, 0, false, check_base, "SMPTE ST 12-1, for %s"},
+    {"timecode", TO_CONTAINER | TO_RASTER, 0, false, wf_check_timecode,
+     "SMPTE ST 12-1, for %s"},
+    {"labels", TO_FILES | TO_RASTER, 0, false, wf_check_labels, "SMPTE ST 12-1, for %s"},
+    {"interlace", TO_FILES | TO_RASTER, 0, false, wf_check_interlace, "SMPTE ST 268-1, for %s"},
+    {"base", TO_CONTAINER | TO_RASTER, 0, false, wf_check_base, "SMPTE ST 12-1, for %s"},
     {"start", ALWAYS, ASKED(start), false, check_start, "%s"},
-    {"frames", TO_CONTAINER | TO_PIXELS, 0, false, check_frames, "the container"},
-    {"sound", TO_SOUND | TO_PIXELS | TO_RASTER, 0, false, check_sound, "the video's length"},
+    {"frames", TO_CONTAINER | TO_PIXELS, 0, false, wf_check_frames, "the container"},
+    {"sound", TO_SOUND | TO_PIXELS | TO_RASTER, 0, false, wf_check_sound, "the video's length"},
     {"channels", ALWAYS, ASKED(sound_channels), true, check_channels, "%s"},
     {"tracks", ALWAYS, ASKED(channels), false, check_tracks, "%s"},
     {"sound bits", ALWAYS, ASKED(sound_bits), true, check_sound_bits, "%s"},
@@ -396,7 +354,8 @@ static unsigned nature_of(const wf_subject *s) {
     return (s->trouble ? 0 : TO_PIXELS) | (s->raster_known ? TO_RASTER : 0) |
            (s->raster_known && s->raster.scan == WF_INTERLACED ? TO_FIELDS : 0) |
            (s->contained ? TO_CONTAINER : 0) | (mov ? TO_MOV : 0) | (mxf ? TO_MXF : 0) |
-           (s->contained && s->claims.sound_streams ? TO_SOUND : 0);
+           (s->contained && s->claims.sound_streams ? TO_SOUND : 0) |
+           (s->labels.files ? TO_FILES : 0);
 }
 
 /* Whether the profile has the member that a check needs. */

@@ -2,6 +2,7 @@
 #define WF_CONVERT_VERIFY_CHECKS_H
 
 #include "convert/verify.h"
+#include "convert/verify_frames.h"
 
 /* A file with all that is known of it. */
 typedef struct wf_subject {
@@ -12,9 +13,19 @@ typedef struct wf_subject {
     wf_figures figures; /* frames 0: the pixels cannot be read */
     wf_raster raster;   /* that it is held to */
     bool raster_known;
-    int coded_lines;     /* with those of the vertical interval */
-    const char *trouble; /* why the pixels cannot be read */
+    wf_frame_labels labels; /* files 0: it is no image sequence */
+    int coded_lines;        /* with those of the vertical interval */
+    const char *trouble;    /* why the pixels cannot be read */
 } wf_subject;
+
+/* Fills a finding: what is there, and, unless it is right, what should be. */
+wf_verdict wf_say(wf_finding *finding, bool right, const char *is, const char *should);
+wf_verdict wf_open_question(wf_finding *finding, const char *is);
+
+/* Those of the table that are about time (verify_time.c). */
+typedef wf_verdict wf_check_fn(const wf_subject *subject, wf_finding *finding);
+wf_check_fn wf_check_timecode, wf_check_labels, wf_check_interlace, wf_check_base,
+    wf_check_frames, wf_check_sound;
 
 /* Whether `name` is one of the words, which have blanks between. */
 bool wf_in_words(const char *words, const char *name);

@@ -61,7 +61,7 @@ rasters='525i 720,486 bb Interlaced/BFF 243 1 1 0101 [21,283] 4/3 30 uyvy
 625i 720,576 tt Interlaced/TFF 288 1 1 0105 [23,336] 4/3 25 v210
 625i-dv 720,576 bb Interlaced/BFF 288 1 1 0105 [23,335] 4/3 25 uyvy
 1080i50 1920,1080 tt Interlaced/TFF 540 1 4 0229 [21,584] 16/9 25 v210
-1080psf24 1920,1080 tt Interlaced/TFF 540 4 4 7f01 [21,584] 16/9 24 uyvy
+1080psf24 1920,1080 progressive Progressive/ 1080 0 4 7f01 [42,0] 16/9 24 uyvy
 720p50 1280,720 progressive Progressive/ 720 0 5 0319 [26,0] 16/9 50 v210
 46x14@30i,tff 46,14 tt Interlaced/TFF 7 1 0 7f01 [1,10] 23/7 30 uyvy
 46x14@30i,bff 46,14 bb Interlaced/BFF 7 1 0 7f01 [1,9] 23/7 30 v210

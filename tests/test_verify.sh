@@ -152,6 +152,26 @@ else
     echo "skipped: AVC-Intra, as there is no libx264"
 fi
 
+# ---- Image sequences ----
+
+# Byte 3 of a DPX file's time code (SMPTE ST 268-1) is frames; byte 1928 is interlace.
+poked() { printf '%b' "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none; }
+small=(--raster 180x122@25i,tff)
+check "DPX" made s.####.dpx "${small[@]}" --timecode 10:00:00:23
+check "labels that count on are right" right s.####.dpx "${small[@]}"
+check "and told" prints "10:00:00:23, in"
+poked s.0001.dpx 1923 '\x23'
+check "a label twice" only labels s.####.dpx "${small[@]}"
+check "the one that it should be is told" grep -q '"should": "10:00:00:24"' out
+poked s.0001.dpx 1923 '\x24'
+for file in s.*.dpx; do poked "$file" 1928 '\x00'; done
+check "fields that are not said to be" only interlace s.####.dpx "${small[@]}"
+check "EXR" made s.####.exr "${small[@]}" --timecode 10:00:00:23
+check "its labels" right s.####.exr "${small[@]}"
+rm s.0001.exr && cp s.0000.exr s.0001.exr
+check "are looked at" exits 1 weft verify --json s.####.exr "${small[@]}"
+check "one by one" grep -q '"should": "10:00:00:24"' out
+
 # ---- The command ----
 
 check "the profiles" exits 0 weft verify --profiles
