@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/ocio.h"
 #include "convert/colors.h"
-#include "convert/module.h"
 #include "convert/start.h"
 
 /* ---- Input ---- */
@@ -200,71 +198,6 @@ static weft_status make_resampler(weft_job *job, wf_setup *s, weft_error *err) {
     return WEFT_OK;
 }
 
-/* ---- Colour ---- */
-
-static const char *given(const char *text) {
-    return text && *text ? text : NULL;
-}
-
-/* $OCIO names the studio's configuration; a job that names its own wins. */
-static const char *foreign_config(const weft_job *job) {
-    return job->ocio ? job->ocio : given(secure_getenv("OCIO"));
-}
-
-static weft_status open_ocio(const wf_ocio_query *query, wf_setup *s, weft_error *err) {
-    void *symbol;
-    weft_status status = wf_module_symbol("ocio", "wf_ocio_open", &symbol, err);
-    if (status) return status;
-    wf_ocio_open_fn *open;
-    memcpy(&open, &symbol, sizeof open);
-    char why[900];
-    if (!open(query, &s->transform, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
-    return WEFT_OK;
-}
-
-static const char *source_space(const weft_job *job, const wf_setup *s) {
-    return job->from ? job->from : s->scene_space ? s->scene_space : "lin_rec709";
-}
-
-static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error *err) {
-    const char *config = foreign_config(job),
-               *raster_space = wf_colors_of(job->raster.matrix)->space;
-    bool by_display = job->display || job->view;
-    const char *to = job->to ? job->to : config || by_display ? NULL : raster_space;
-    snprintf(s->color_space, sizeof s->color_space, "%s",
-             to             ? to
-             : job->view    ? job->view
-             : job->display ? job->display
-                            : "");
-    if (!config && !by_display && !job->look) {
-        char why[900];
-        if (wf_builtin_transform(source_space(job, s), to, &s->transform, why, sizeof why))
-            return WEFT_OK;
-        return wf_fail(err, WEFT_USAGE, "%s", why);
-    }
-    const char *from = job->from ? job->from : s->scene_space;
-    const wf_ocio_query query = {config, from, to, job->display, job->view, job->look};
-    return open_ocio(&query, s, err);
-}
-
-static bool left_linear(const weft_job *job, const wf_sink_kind *sink) {
-    return sink->layout == WF_LINEAR && !job->to && !job->display && !job->view && !job->look;
-}
-
-static weft_status choose_color(const weft_job *job, wf_setup *s, weft_error *err) {
-    if (left_linear(job, s->sink)) {
-        snprintf(s->color_space, sizeof s->color_space, "%s", source_space(job, s));
-        return WEFT_OK;
-    }
-    if (job->nan_fix == WF_NAN_NONE)
-        return wf_fail(err, WEFT_USAGE,
-                       "--fix-nan none is for linear EXR output only: %s cannot "
-                       "hold NaN; take box3, black or error",
-                       job->output);
-    return choose_transform(job, s, err);
-}
-
 /* ---- Output ---- */
 
 static int list_bits(unsigned mask, char *text, size_t size) {
@@ -313,27 +246,6 @@ static weft_status check_output(const weft_job *job, const wf_sink_kind *sink, i
     return WEFT_OK;
 }
 
-/* What the picture is shown on, as far as its color space tells. */
-static weft_status make_display(const weft_job *job, wf_setup *s, weft_error *err) {
-    static const struct {
-        const char *space;
-        wf_transfer transfer;
-    } rows[] = {{"rec2100-pq", WF_TRANSFER_PQ}, {"rec2100-hlg", WF_TRANSFER_HLG}};
-    wf_primaries primaries = wf_colors_of(job->raster.matrix)->primaries;
-    wf_transfer transfer = WF_TRANSFER_BT1886;
-    if (job->chroma != WF_CHROMA_LUMA_ADJUST || s->sink->layout != WF_YCBCR) return WEFT_OK;
-    if (!s->display) s->display = malloc(sizeof *s->display);
-    if (!s->display) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a display's curve");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (strcmp(rows[i].space, s->color_space)) continue;
-        transfer = rows[i].transfer;
-        primaries = WF_PRIMARIES_2020;
-    }
-    wf_display_init(s->display, primaries, transfer);
-    s->encoding.display = s->display;
-    return WEFT_OK;
-}
-
 static void tell_changes(const weft_job *job, const wf_setup *s) {
     char text[512] = "";
     if (s->sink->tell) s->sink->tell(&s->sink_options, text, sizeof text);
@@ -343,14 +255,7 @@ static void tell_changes(const weft_job *job, const wf_setup *s) {
                     job->output);
 }
 
-weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
-    s->sink = wf_sink_for(job->output, job->codec, err);
-    if (!s->sink) return WEFT_USAGE;
-    int bits = job->bits ? job->bits : s->sink->default_bits;
-    weft_status status = check_output(job, s->sink, bits, err);
-    if (status) return status;
-    bool full =
-        job->range == WF_RANGE_UNSET ? s->sink->full_range : job->range == WF_RANGE_FULL;
+static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full) {
     s->sink_options = (wf_sink_options){
         .output = job->output,
         .raster = &job->raster,
@@ -368,6 +273,17 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .overwrite = job->overwrite,
         .resume = job->resume,
     };
+}
+
+weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
+    s->sink = wf_sink_for(job->output, job->codec, err);
+    if (!s->sink) return WEFT_USAGE;
+    int bits = job->bits ? job->bits : s->sink->default_bits;
+    weft_status status = check_output(job, s->sink, bits, err);
+    if (status) return status;
+    bool full =
+        job->range == WF_RANGE_UNSET ? s->sink->full_range : job->range == WF_RANGE_FULL;
+    describe_sink(job, s, bits, full);
     if (s->sink->check && (status = s->sink->check(&s->sink_options, err))) return status;
     tell_changes(job, s);
     snprintf(s->color_space, sizeof s->color_space, "%s",
@@ -382,13 +298,13 @@ weft_status wf_setup_sink(const weft_job *job, wf_setup *s, weft_error *err) {
         .bits = bits,
         .width_px = job->raster.width_px,
     };
-    return make_display(job, s, err);
+    return wf_setup_display(job, s, err);
 }
 
 weft_status wf_setup_output(weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = wf_setup_sink(job, s, err);
-    if (!status) status = choose_color(job, s, err);
-    return status ? status : make_display(job, s, err);
+    if (!status) status = wf_setup_color(job, s, err);
+    return status ? status : wf_setup_display(job, s, err);
 }
 
 void wf_setup_count_frames(wf_setup *s) {

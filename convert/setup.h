@@ -36,6 +36,10 @@ void wf_setup_free(wf_setup *setup);
 /* The output's side of it alone: sink, colour, codes. */
 weft_status wf_setup_output(weft_job *job, wf_setup *setup, weft_error *err);
 
+/* Parts of it (setup_color.c): the transform, and what luma-adjust takes the display for. */
+weft_status wf_setup_color(const weft_job *job, wf_setup *setup, weft_error *err);
+weft_status wf_setup_display(const weft_job *job, wf_setup *setup, weft_error *err);
+
 /* Of that the sink and the codes, for signals that are in the raster's color already: nothing
  * is transformed. */
 weft_status wf_setup_sink(const weft_job *job, wf_setup *setup, weft_error *err);
