@@ -213,6 +213,6 @@ check "SIGINT" stopped INT 130
 check "SIGTERM" stopped TERM 143
 
 check "help teaches" grep -q "cross-color" <("$WEFT" composite --help)
-check "weft lists it" grep -q "composite IN -o OUTPUT" <("$WEFT" --help)
+check "weft lists it" grep -q "composite *IN -o OUTPUT" <("$WEFT" --help)
 
 finish
