@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "convert/container.h"
+#include "convert/klv.h"
 
 #define MOOV_MOST       ((int64_t)1 << 30)
 #define ENTRY_BYTES     86 /* of a video's sample description before its extensions */
@@ -18,14 +19,6 @@ typedef struct atoms {
     const wf_container_facts *facts;
     bool video; /* the track that is copied is one */
 } atoms;
-
-static uint32_t get32(const uint8_t *p) {
-    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
-}
-
-static void set32(uint8_t *p, uint32_t value) {
-    for (int i = 0; i < 4; i++) p[i] = (uint8_t)(value >> (24 - 8 * i));
-}
 
 static bool is(const uint8_t *atom, const char *type) {
     return !memcmp(atom + 4, type, 4);
@@ -45,7 +38,7 @@ void wf_clean_aperture(const wf_raster *r, uint32_t *width, uint32_t *lines) {
 
 static uint8_t *begin(atoms *a, const char *type, uint32_t bytes) {
     uint8_t *atom = a->to + a->used;
-    set32(atom, bytes);
+    wf_put_big_endian(atom, bytes, 4);
     memcpy(atom + 4, type, 4);
     memset(atom + 8, 0, bytes - 8);
     a->used += bytes;
@@ -73,8 +66,8 @@ static void put_colors(atoms *a) {
 static void put_shape(atoms *a) {
     const wf_raster *r = a->facts->raster;
     uint8_t *value = begin(a, "pasp", 16);
-    set32(value, (uint32_t)r->pixel_aspect.num);
-    set32(value + 4, (uint32_t)r->pixel_aspect.den);
+    wf_put_big_endian(value, (uint32_t)r->pixel_aspect.num, 4);
+    wf_put_big_endian(value + 4, (uint32_t)r->pixel_aspect.den, 4);
 }
 
 static void put_aperture(atoms *a) {
@@ -82,7 +75,8 @@ static void put_aperture(atoms *a) {
     wf_clean_aperture(a->facts->raster, &width, &lines);
     uint8_t *value = begin(a, "clap", 40);
     const uint32_t ratios[] = {width, 1, lines, 1, 0, 1, 0, 1}; /* size, and from the center */
-    for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++) set32(value + 4 * i, ratios[i]);
+    for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++)
+        wf_put_big_endian(value + 4 * i, ratios[i], 4);
 }
 
 /* ---- Copying ---- */
@@ -111,7 +105,7 @@ static bool is_own(const uint8_t *atom) {
 
 /* Bytes of the atom at `at`, which ends before `end`; 0: there is none, but a terminator. */
 static size_t atom_bytes(const atoms *a, size_t at, size_t end) {
-    size_t bytes = end - at < 8 ? 0 : get32(a->from + at);
+    size_t bytes = end - at < 8 ? 0 : wf_big_endian(a->from + at, 4);
     return bytes < 8 || bytes > end - at ? 0 : bytes;
 }
 
@@ -127,7 +121,7 @@ static void copy_entry(atoms *a, size_t at, size_t end) {
     put_colors(a);
     put_shape(a);
     put_aperture(a);
-    set32(a->to + start, (uint32_t)(a->used - start));
+    wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
 }
 
 static void copy_descriptions(atoms *a, size_t at, size_t end) {
@@ -146,8 +140,8 @@ static void put_shown(uint8_t *clef, const wf_raster *r) {
     uint32_t width, lines;
     wf_clean_aperture(r, &width, &lines);
     double shown = width * wf_ratio_value(r->pixel_aspect) * 65536;
-    set32(clef + 12, (uint32_t)(shown + 0.5));
-    set32(clef + 16, lines << 16);
+    wf_put_big_endian(clef + 12, (uint32_t)(shown + 0.5), 4);
+    wf_put_big_endian(clef + 16, lines << 16, 4);
 }
 
 static bool holds_video(const atoms *a, size_t at, size_t end) {
@@ -179,7 +173,7 @@ static void copy_atom(atoms *a, size_t at, size_t end) {
         copy(a, at, end - at);
         if (is(atom, "clef") && end - at == 20) put_shown(a->to + start, a->facts->raster);
     }
-    set32(a->to + start, (uint32_t)(a->used - start));
+    wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
 }
 
 /* ---- The file ---- */
@@ -198,9 +192,8 @@ static weft_status find_movie(wf_outfile *file, int64_t *at, int64_t *bytes, wef
         weft_status status = wf_outfile_read(file, *at, head, sizeof head, &got, err);
         if (status) return status;
         if (got < 8) return malformed(err);
-        *bytes = get32(head);
-        if (*bytes == 1 && got == sizeof head)
-            *bytes = (int64_t)get32(head + 8) << 32 | get32(head + 12);
+        *bytes = (int64_t)wf_big_endian(head, 4);
+        if (*bytes == 1 && got == sizeof head) *bytes = (int64_t)wf_big_endian(head + 8, 8);
         if (*bytes < 8) return malformed(err);
         if (is(head, "moov")) return WEFT_OK;
     }

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/klv.h"
+
 /* A file under examination. */
 typedef struct exam {
     const char *path;
@@ -24,10 +26,6 @@ static weft_status damaged(const exam *x, const char *what) {
 static bool read_at(const exam *x, uint64_t offset, void *to, size_t bytes) {
     if (offset > x->bytes || bytes > x->bytes - offset) return false;
     return !fseeko(x->file, (off_t)offset, SEEK_SET) && fread(to, 1, bytes, x->file) == bytes;
-}
-
-static uint32_t big_endian(const uint8_t *b) {
-    return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
 }
 
 /* ---- PNG (ISO/IEC 15948): chunks of a length, a name, data and their CRC ---- */
@@ -53,13 +51,14 @@ static weft_status examine_png(const exam *x) {
         uint8_t head[8], tail[4];
         if (!read_at(x, at, head, sizeof head))
             return damaged(x, "it ends before its IEND chunk");
-        uint64_t bytes = big_endian(head);
+        uint64_t bytes = wf_big_endian(head, 4);
         if (bytes + PNG_FRAME_BYTES > x->bytes - at)
             return damaged(x, "it ends within a chunk");
         uint32_t sum = libdeflate_crc32(0, head + 4, 4);
         if (!sum_data(x, &sum, bytes) || fread(tail, 1, sizeof tail, x->file) != sizeof tail)
             return damaged(x, "it cannot be read to its end");
-        if (sum != big_endian(tail)) return damaged(x, "the checksum of a chunk is wrong");
+        if (sum != wf_big_endian(tail, 4))
+            return damaged(x, "the checksum of a chunk is wrong");
         if (!memcmp(head + 4, "IEND", 4)) return WEFT_OK;
         at += bytes + PNG_FRAME_BYTES;
     }
@@ -90,7 +89,7 @@ static weft_status examine_jpeg(const exam *x) {
 static uint32_t dpx_word(const uint8_t *header, size_t offset) {
     const uint8_t *b = header + offset;
     bool little = header[0] == 'X';
-    uint32_t word = big_endian(b);
+    uint32_t word = (uint32_t)wf_big_endian(b, 4);
     return little ? __builtin_bswap32(word) : word;
 }
 

@@ -201,7 +201,6 @@ static weft_status write_header(wf_writing *w, weft_error *err) {
     /* Which the muxer of QuickTime writes at the end, if it is not there at the beginning. */
     if (code >= 0) code = av_dict_set(about, "encoder", name, 0);
     av_dict_free(&options);
-    w->begun = code >= 0;
     return code < 0 ? wf_writing_failed(w, "its header cannot be written", code, err) : WEFT_OK;
 }
 

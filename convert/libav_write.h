@@ -35,7 +35,6 @@ typedef struct wf_writing {
     AVPacket *packet;
     wf_sound sound;
     int64_t frames;
-    bool begun; /* the header is written */
 } wf_writing;
 
 /* An error of libav's, in its words and the file's. */

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/klv.h"
+
 #define BER_BYTES 4
 
 /* ---- Bytes ---- */
@@ -26,7 +28,7 @@ void wf_bytes_put(wf_bytes *b, const void *data, size_t size) {
 
 void wf_bytes_number(wf_bytes *b, int size, uint64_t value) {
     uint8_t bytes[8];
-    for (int i = 0; i < size; i++) bytes[i] = (uint8_t)(value >> 8 * (size - 1 - i));
+    wf_put_big_endian(bytes, value, (size_t)size);
     wf_bytes_put(b, bytes, (size_t)size);
 }
 

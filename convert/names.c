@@ -219,3 +219,8 @@ void wf_groups_text(const wf_numbered_list *list, char *text, size_t size) {
         used += wf_group_text(list, first, end, text + used, size - used - 8);
     }
 }
+
+bool wf_name_ends_in(const char *name, const char *ending) {
+    const char *dot = strrchr(name, '.');
+    return dot && !strcasecmp(dot, ending);
+}

@@ -43,6 +43,9 @@ weft_status wf_names_group(const wf_names *names, bool subframes, wf_numbered_li
                            weft_error *err);
 bool wf_name_is_picture(const char *name);
 
+/* Whether what follows its last dot is ending (".dpx"), in either case. */
+bool wf_name_ends_in(const char *name, const char *ending);
+
 /* Reads the number of one name; false if it has none. */
 bool wf_name_number_of(const char *name, bool subframes, wf_numbered *out);
 

@@ -2,8 +2,8 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
+#include "convert/names.h"
 #include "convert/sequence.h"
 #include "convert/source.h"
 #include "convert/timecode.h"
@@ -60,16 +60,11 @@ static bool read_exr(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *
 
 /* ---- The sequence ---- */
 
-static bool ends_in(const char *path, const char *ending) {
-    const char *dot = strrchr(path, '.');
-    return dot && !strcasecmp(dot, ending);
-}
-
 static bool read_label(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *label,
                        int *interlace) {
     *interlace = -1;
-    if (ends_in(ref->path, ".dpx")) return read_dpx(ref->path, rate, label, interlace);
-    return ends_in(ref->path, ".exr") && read_exr(ref, rate, label);
+    if (wf_name_ends_in(ref->path, ".dpx")) return read_dpx(ref->path, rate, label, interlace);
+    return wf_name_ends_in(ref->path, ".exr") && read_exr(ref, rate, label);
 }
 
 static bool same_label(const wf_timecode *a, const wf_timecode *b) {

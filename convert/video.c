@@ -122,11 +122,6 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
 
 /* ---- Opening ---- */
 
-static bool ends_in(const char *path, const char *ending) {
-    const char *dot = strrchr(path, '.');
-    return dot && !strcasecmp(dot, ending);
-}
-
 static bool is_y4m(const char *path) {
     char head[sizeof WF_Y4M_MAGIC] = "";
     FILE *file = fopen(path, "rb");
@@ -146,14 +141,14 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
         *kind = &wf_video_pictures;
     else if (!there)
         return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
-    else if (ends_in(path, ".v210") || ends_in(path, ".uyvy"))
+    else if (wf_name_ends_in(path, ".v210") || wf_name_ends_in(path, ".uyvy"))
         *kind = &wf_video_raw;
     else if (!about.st_size)
         return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
     else if (is_y4m(path))
         *kind = &wf_video_y4m;
     else if (wf_is_exr(path) ||
-             (wf_name_is_picture(wf_base_name(path)) && !ends_in(path, ".gif")))
+             (wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif")))
         *kind = &wf_video_pictures;
     return WEFT_OK;
 }
