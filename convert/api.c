@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "convert/fail.h"
-#include "filters/aperture.h"
-#include "filters/raster.h"
+#include "convert/base/fail.h"
+#include "filters/aperture/aperture.h"
+#include "filters/raster/raster.h"
 
 const char *weft_version(void) {
     return WEFT_VERSION;

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/encoder.h"
-#include "color/line.h"
-#include "color/ocio.h"
-#include "color/space.h"
-#include "convert/frames.h"
-#include "convert/module.h"
+#include "color/codes/encoder.h"
+#include "color/line/line.h"
+#include "color/space/ocio/ocio.h"
+#include "color/space/space.h"
+#include "convert/base/module.h"
+#include "convert/run/frames.h"
 
 enum { WIDTH = 1920, LINES = 540, RUNS = 9 };
 

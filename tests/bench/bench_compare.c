@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/picture.h"
+#include "convert/read/picture.h"
 
 #define MOST 8
 

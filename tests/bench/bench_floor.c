@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/frames.h"
+#include "convert/run/frames.h"
 
 typedef struct buffers {
     struct libdeflate_decompressor *inflate;

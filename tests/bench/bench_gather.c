@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/frames.h"
-#include "filters/samples.h"
+#include "convert/run/frames.h"
+#include "filters/gather/samples.h"
 
 #define PER_PIXEL 64
 

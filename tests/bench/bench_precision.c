@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/frames.h"
-#include "filters/half.h"
-#include "filters/resampler.h"
-#include "tests/reference.h"
+#include "convert/run/frames.h"
+#include "filters/base/half.h"
+#include "filters/resample/resampler.h"
+#include "tests/unit/support/reference.h"
 
 #define SUBFRAMES 8
 #define PIXELS    120

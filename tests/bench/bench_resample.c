@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/frames.h"
-#include "filters/resampler.h"
+#include "convert/run/frames.h"
+#include "filters/resample/resampler.h"
 
 enum { CELLS_X = 1440, CELLS_Y = 972, SUBFRAMES = 32, FIELDS = 4 };
 

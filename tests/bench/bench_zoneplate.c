@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/exr_write.h"
-#include "tests/zoneplate.h"
+#include "tests/unit/support/exr_write.h"
+#include "tests/unit/support/zoneplate.h"
 
 #define EDGE 2
 

@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "tests/exr_write.h"
+#include "tests/unit/support/exr_write.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

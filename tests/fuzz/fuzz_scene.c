@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tracer/load.h"
-#include "tracer/sampling.h"
+#include "tracer/sample/sampling.h"
+#include "tracer/scene/load.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/range.h"
-#include "convert/selection.h"
+#include "convert/base/range.h"
+#include "convert/read/selection.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -46,7 +46,7 @@ static void check_output(const char *text, const wf_pattern *pattern) {
     char path[1024];
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
         wf_rational number;
-        if (!wf_sequence_output_path(text, frames[i], path, sizeof path)) continue;
+        if (!wf_pattern_path(text, frames[i], path, sizeof path)) continue;
         const char *name = path + pattern->directory_length;
         if (strlen(name) >= WF_NAME_SIZE) continue;
         require(wf_pattern_match(pattern, name, &number));

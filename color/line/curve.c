@@ -1,0 +1,31 @@
+#include "color/line/curve.h"
+
+#include <float.h>
+
+/* A power in two floats: 12 bits after the point, and the rest. */
+#define HIGH(p)  ((float)(int)((p)*4096) / 4096)
+#define POWER(p) .power_high = HIGH(p), .power_low = (float)((p) - (double)HIGH(p))
+
+const wf_curve wf_curve_bt1886 = {
+    .kind = WF_CURVE_POWER, POWER(1 / 2.4), .gain = 1, .toe_end = FLT_MIN};
+
+const wf_curve wf_curve_bt709 = {.kind = WF_CURVE_POWER,
+                                 POWER(0.45),
+                                 .gain = 1.099f,
+                                 .offset = 0.099f,
+                                 .toe_end = 0.018f,
+                                 .toe_slope = 4.5f};
+
+const wf_curve wf_curve_bt2020 = {.kind = WF_CURVE_POWER,
+                                  POWER(0.45),
+                                  .gain = 1.09929682680944f,
+                                  .offset = 0.09929682680944f,
+                                  .toe_end = 0.018053968510807f,
+                                  .toe_slope = 4.5f};
+
+/* m1 = 2610 / 16384 of ST 2084. */
+const wf_curve wf_curve_pq = {
+    .kind = WF_CURVE_PQ, .scale = 203.0f / 10000, POWER(2610.0 / 16384)};
+
+/* (e^((0.75 - c) / a) + b) / 12: the light of which the OETF makes 0.75. */
+const wf_curve wf_curve_hlg = {.kind = WF_CURVE_HLG, .scale = 0.26496256042100718f};

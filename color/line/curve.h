@@ -1,0 +1,35 @@
+#ifndef WF_COLOR_LINE_CURVE_H
+#define WF_COLOR_LINE_CURVE_H
+
+/* Transfer curves: linear light, 1.0 being reference white, to R'G'B'. Negative light and NaN
+ * give what 0 gives; light beyond WF_MOST_LIGHT, Inf with it, gives what WF_MOST_LIGHT gives.
+ * Signals above 1 are kept. */
+
+/* The largest half: what EXR files hold at most, and far beyond every code. */
+#define WF_MOST_LIGHT 65504.0f
+
+typedef enum wf_curve_kind {
+    WF_CURVE_POWER, /* gain x^p - offset, below toe_end: toe_slope x */
+    WF_CURVE_PQ,    /* inverse EOTF of Rec. ITU-R BT.2100 table 4 (SMPTE ST 2084) */
+    WF_CURVE_HLG,   /* OETF of Rec. ITU-R BT.2100 table 5 */
+    WF_CURVE_KINDS,
+} wf_curve_kind;
+
+typedef struct wf_curve {
+    wf_curve_kind kind;
+    float scale;                 /* PQ and HLG: reference white on the standard's scale */
+    float power_high, power_low; /* p; high has few enough bits to be multiplied exactly */
+    float gain, offset, toe_end, toe_slope;
+} wf_curve;
+
+/* Inverse of the display of Rec. ITU-R BT.1886 annex 1 with black at 0: gamma 2.4. */
+extern const wf_curve wf_curve_bt1886;
+/* OETF of Rec. ITU-R BT.709-6 item 1.2, its four constants as printed; BT.601-7's too. */
+extern const wf_curve wf_curve_bt709;
+/* OETF of Rec. ITU-R BT.2020-2 table 4, with alpha and beta as its note defines them. */
+extern const wf_curve wf_curve_bt2020;
+/* Reference white at 203 cd/m2 in PQ and at 75 % in HLG: Report ITU-R BT.2408 table 1. */
+extern const wf_curve wf_curve_pq;
+extern const wf_curve wf_curve_hlg;
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef WF_CONVERT_BASE_VALUES_H
+#define WF_CONVERT_BASE_VALUES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* What option values look like. Each function reads the whole of text or returns false and
+ * leaves its results alone. */
+
+/* "268435456", "512M", "1.5G", "64MiB" (powers of 1024), "500MB" (of 1000); 1 MiB .. 1024 TiB.
+ */
+bool wf_parse_size(const char *text, size_t *bytes);
+
+/* "2/4": 1 <= chunk <= count <= 10^6; not reduced. */
+bool wf_parse_chunk(const char *text, int *chunk, int *count);
+
+/* "4x4x8": samples a pixel, a line and a field, each 1 .. 64. */
+bool wf_parse_oversample(const char *text, int *across, int *down, int *times);
+
+/* "0.18" or "0.1,0.2,0.3", each 0 .. 65504. */
+bool wf_parse_rgb(const char *text, float rgb[3]);
+
+/* "01:02:03:04"; with ';' before the frames, drop frame. Frames 0 .. 99. */
+typedef struct wf_timecode {
+    int hours, minutes, seconds, frames;
+    bool drop_frame;
+} wf_timecode;
+bool wf_parse_timecode(const char *text, wf_timecode *out);
+
+#endif

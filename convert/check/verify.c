@@ -1,0 +1,84 @@
+#include "convert/check/verify.h"
+
+#include <string.h>
+
+#include "convert/check/verify_checks.h"
+
+/* ---- What it is held to ---- */
+
+/* Of the profile's rasters the one that the file says, else its first. */
+static void take_profile_raster(wf_subject *s, const char *said) {
+    char name[64], why[256];
+    const char *rasters = s->profile->rasters;
+    if (wf_in_words(rasters, said))
+        snprintf(name, sizeof name, "%s", said);
+    else
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(rasters, " "), rasters);
+    s->raster_known = wf_raster_parse(name, &s->raster, why, sizeof why);
+}
+
+/* A raster of the table that is like the file in everything but its order. */
+static const char *raster_but_for_order(const wf_raster *said) {
+    const wf_raster *r;
+    for (size_t i = 0; (r = wf_raster_at(i)); i++)
+        if (r->width_px == said->width_px && r->lines == said->lines && r->scan == said->scan &&
+            wf_ratio_equal(r->frame_rate, said->frame_rate))
+            return r->name;
+    return NULL;
+}
+
+/* As the file says, or as a named raster close to it; sizes of nobody's are taken as they are.
+ */
+static void take_said_raster(wf_subject *s) {
+    const wf_video_info *v = &s->figures.info;
+    char why[256];
+    s->raster = v->raster;
+    if (s->contained && s->metadata.scan_known && !s->metadata.interlaced)
+        s->raster.scan = WF_PROGRESSIVE;
+    bool made_up = strchr(v->raster.name, '@') || s->raster.scan != v->raster.scan;
+    const char *near = made_up ? raster_but_for_order(&s->raster) : NULL;
+    const char *name = near ? near : made_up ? NULL : v->raster.name;
+    s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why)
+                           : v->scan_known || s->metadata.scan_known;
+}
+
+static void find_raster(wf_subject *s) {
+    if (!s->trouble) take_said_raster(s);
+    if (s->options->raster) {
+        s->raster = *s->options->raster;
+        s->raster_known = true;
+    } else if (s->profile) {
+        take_profile_raster(s, s->raster_known ? s->raster.name : "");
+        s->coded_lines = s->profile->coded_lines;
+    }
+    if (!s->coded_lines) s->coded_lines = s->raster.lines + s->figures.info.interval_lines;
+}
+
+/* Y4M, raw files and pictures say no more than what measuring has seen. */
+static bool is_contained(const wf_video_info *v) {
+    return v->layout == WF_YCBCR && strncmp(v->format, "Y4M ", 4) &&
+           strncmp(v->format, "raw ", 4);
+}
+
+weft_status wf_verify(const char *path, const wf_verify_options *options, wf_verification *out,
+                      weft_error *err) {
+    const wf_measure_options measure = {.of_delivery = true,
+                                        .max_memory_bytes = options->max_memory_bytes,
+                                        .progress = options->progress,
+                                        .progress_user = options->progress_user};
+    weft_error trouble = {""}, untold;
+    wf_subject s = {.options = options, .profile = options->profile};
+    *out = (wf_verification){.profile = options->profile};
+    weft_status status = wf_measure(path, &measure, &s.figures, &trouble);
+    if (status == WEFT_NO_MEMORY || status == WEFT_INTERRUPTED)
+        return wf_fail(err, status, "%s", trouble.text);
+    s.trouble = status ? trouble.text : NULL;
+    if (status || is_contained(&s.figures.info))
+        s.contained = !wf_metadata_read(path, &s.metadata, &untold);
+    find_raster(&s);
+    if (!status && s.figures.info.layout != WF_YCBCR)
+        (void)wf_frame_labels_read(path, s.raster.frame_rate, &s.labels, &untold);
+    out->raster = s.raster;
+    wf_run_checks(&s, out);
+    return WEFT_OK;
+}

@@ -1,0 +1,107 @@
+#include "convert/check/verify_frames.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "convert/base/names.h"
+#include "convert/job/timecode.h"
+#include "convert/read/sequence.h"
+#include "convert/read/source.h"
+
+/* ---- DPX ---- */
+
+#define TELEVISION_AT 1920 /* the header: U32 time code, U32 user bits, U8 interlace, .. */
+#define UNDEFINED     UINT32_MAX
+
+static int of_bcd(unsigned byte) {
+    return (int)(byte >> 4) * 10 + (int)(byte & 15);
+}
+
+/* False where it has none. */
+static bool read_word(uint32_t word, wf_rational rate, wf_timecode *out) {
+    int together = wf_timecode_together(rate);
+    if (word == UNDEFINED) return false;
+    *out = (wf_timecode){.hours = of_bcd(word >> 24 & 0x3f),
+                         .minutes = of_bcd(word >> 16 & 0x7f),
+                         .seconds = of_bcd(word >> 8 & 0x7f),
+                         .frames = of_bcd(word & 0x3f) * together,
+                         .drop_frame = word >> 6 & 1};
+    if (together == 2) out->frames += (int)(word >> 15 & 1);
+    return true;
+}
+
+static bool read_dpx(const char *path, wf_rational rate, wf_timecode *label, int *interlace) {
+    uint8_t magic[4] = {0}, tv[9];
+    FILE *file = fopen(path, "rbe");
+    bool whole = file && fread(magic, sizeof magic, 1, file) == 1 &&
+                 !fseek(file, TELEVISION_AT, SEEK_SET) && fread(tv, sizeof tv, 1, file) == 1;
+    if (file) fclose(file);
+    if (!whole) return false;
+    bool little = magic[0] == 'X';
+    uint32_t word = 0;
+    for (int i = 0; i < 4; i++) word = word << 8 | tv[little ? 3 - i : i];
+    *interlace = tv[8] <= 1 ? tv[8] : -1;
+    return read_word(word, rate, label);
+}
+
+/* ---- EXR ---- */
+
+static bool read_exr(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *label) {
+    const wf_source_options options = {.max_memory_bytes = (size_t)1 << 30};
+    wf_subframe *subframe;
+    if (wf_subframe_open(ref->path, ref->part, &options, &subframe, NULL)) return false;
+    const wf_image_info *info = wf_subframe_info(subframe);
+    bool has = wf_parse_timecode(info->timecode, label);
+    if (has && wf_timecode_together(rate) == 2)
+        label->frames = 2 * label->frames + info->timecode_mark;
+    wf_subframe_close(subframe);
+    return has;
+}
+
+/* ---- The sequence ---- */
+
+static bool read_label(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *label,
+                       int *interlace) {
+    *interlace = -1;
+    if (wf_name_ends_in(ref->path, ".dpx")) return read_dpx(ref->path, rate, label, interlace);
+    return wf_name_ends_in(ref->path, ".exr") && read_exr(ref, rate, label);
+}
+
+static bool same_label(const wf_timecode *a, const wf_timecode *b) {
+    return a->hours == b->hours && a->minutes == b->minutes && a->seconds == b->seconds &&
+           a->frames == b->frames && a->drop_frame == b->drop_frame;
+}
+
+/* File i, counted from the first that has a label. */
+static void add_label(wf_frame_labels *l, const wf_timecode *label, wf_rational rate,
+                      int64_t i) {
+    char why[160];
+    if (!l->labelled++) l->first = *label;
+    bool counts = wf_timecode_check(&l->first, rate, why, sizeof why);
+    wf_timecode should = counts ? wf_timecode_add(&l->first, i, rate) : *label;
+    if (same_label(label, &should) || l->wrong++) return;
+    l->wrong_at = i;
+    l->is = *label;
+    l->should = should;
+}
+
+weft_status wf_frame_labels_read(const char *path, wf_rational rate, wf_frame_labels *out,
+                                 weft_error *err) {
+    char *name = (char *)(uintptr_t)path;
+    wf_sequence sequence = {0};
+    *out = (wf_frame_labels){.interlace = -1};
+    weft_status status = wf_sequence_expand(&name, 1, NULL, &sequence, err);
+    int64_t first = -1;
+    for (size_t i = 0; !status && i < sequence.count; i++) {
+        wf_timecode label;
+        int interlace;
+        if (!sequence.refs[i].path) continue;
+        bool has = read_label(&sequence.refs[i], rate, &label, &interlace);
+        if (has && first < 0) first = (int64_t)i;
+        if (has) add_label(out, &label, rate, (int64_t)i - first);
+        if (!out->files++) out->interlace = interlace;
+        if (interlace != out->interlace) out->interlace = -1;
+    }
+    wf_sequence_free(&sequence);
+    return status;
+}

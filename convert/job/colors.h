@@ -1,0 +1,28 @@
+#ifndef WF_CONVERT_JOB_COLORS_H
+#define WF_CONVERT_JOB_COLORS_H
+
+#include "color/space/space.h"
+#include "filters/raster/raster.h"
+
+/* The colors of a raster: BT.601's two systems have primaries of their own. Static storage. */
+typedef struct wf_colors {
+    const char *space; /* its encoding, of color/weft.ocio */
+    wf_luma luma;
+    wf_primaries primaries;
+} wf_colors;
+
+const wf_colors *wf_colors_of(wf_matrix matrix);
+
+/* What files call colors: code points of Rec. ITU-T H.273. */
+typedef struct wf_color_tags {
+    int primaries, transfer, matrix;
+} wf_color_tags;
+
+/* Whether a space is one that has code points. */
+bool wf_color_has_tags(const char *space);
+
+/* Those of codes that are in a space of color/weft.ocio, with the raster's Y'CbCr; of a space
+ * that has no code points, the raster's own. */
+wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix);
+
+#endif

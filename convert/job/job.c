@@ -1,0 +1,159 @@
+#include "convert/job/job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/base/fail.h"
+#include "convert/job/timecode.h"
+
+weft_job *weft_job_new(void) {
+    weft_job *job = calloc(1, sizeof *job);
+    if (job && wf_job_preset(job, NULL)) {
+        weft_job_free(job);
+        return NULL;
+    }
+    return job;
+}
+
+void weft_job_free(weft_job *job) {
+    if (!job) return;
+    char *const texts[] = {job->output,   job->frames, job->layer,      job->part,  job->ocio,
+                           job->from,     job->to,     job->display,    job->view,  job->look,
+                           job->timecode, job->report, job->oversample, job->codec, job->plan};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);
+    for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
+    for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);
+    free(job->params);
+    free(job->inputs);
+    free(job);
+}
+
+weft_status weft_job_add_input(weft_job *job, const char *path, weft_error *err) {
+    if (!path || !*path)
+        return wf_fail(err, WEFT_USAGE,
+                       "an input's name is empty; give a file, a pattern such as "
+                       "shot.####.exr, or a directory");
+    char **grown = realloc(job->inputs, (job->input_count + 1) * sizeof *grown);
+    if (grown) job->inputs = grown;
+    char *copy = grown ? strdup(path) : NULL;
+    if (!copy) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    job->inputs[job->input_count++] = copy;
+    return WEFT_OK;
+}
+
+weft_status weft_job_set_output(weft_job *job, const char *path, weft_error *err) {
+    if (!path || !*path)
+        return wf_fail(err, WEFT_USAGE,
+                       "the output's name is empty; give a file such as out.y4m");
+    char *copy = strdup(path);
+    if (!copy) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    free(job->output);
+    job->output = copy;
+    return WEFT_OK;
+}
+
+static const char *const command_names[] = {
+    [WF_CONVERT] = "convert", [WF_RENDER] = "render", [WF_TRACE] = "trace"};
+
+const char *wf_command_name(wf_command command) {
+    return command_names[command];
+}
+
+void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user) {
+    job->progress = fn;
+    job->progress_user = user;
+}
+
+void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user) {
+    job->warning = fn;
+    job->warning_user = user;
+}
+
+weft_status weft_job_set_command(weft_job *job, const char *name, weft_error *err) {
+    for (size_t i = 0; i < sizeof command_names / sizeof *command_names; i++)
+        if (!strcmp(command_names[i], name)) {
+            job->command = (wf_command)i;
+            return WEFT_OK;
+        }
+    return wf_fail(err, WEFT_USAGE,
+                   "'%.200s' is no command of jobs; there are convert, render "
+                   "and trace",
+                   name);
+}
+
+void weft_job_cancel(weft_job *job) {
+    job->cancelled = 1;
+}
+
+const char *weft_job_report(const weft_job *job) {
+    return job->report ? job->report : "{}";
+}
+
+/* ---- Contradictions ---- */
+
+/* Which frames a second has, and whether it drops labels, depends on the raster. */
+static weft_status check_timecode(const weft_job *job, weft_error *err) {
+    wf_timecode timecode;
+    char why[256];
+    if (!job->timecode || !wf_parse_timecode(job->timecode, &timecode) ||
+        wf_timecode_check(&timecode, job->raster.frame_rate, why, sizeof why))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "--timecode %s: %s (raster %s)", job->timecode, why,
+                   job->raster.name);
+}
+
+/* Film is brought to 60 fields a second, one film frame seen at one time by all its fields. */
+static weft_status check_cadence(const weft_job *job, weft_error *err) {
+    if (job->cadence == WF_CADENCE_NONE) return WEFT_OK;
+    if (job->command == WF_TRACE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--cadence is for fields, and trace stores samples; give it to convert");
+    if (wf_ratio_given(wf_raster_film_rate(&job->raster))) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--cadence 2:3 makes 60000/1001 or 60 fields (or progressive frames) a "
+                   "second of film, and %s has another rate or scan; take 525i, 1080i59.94, "
+                   "1080i60 or 720p59.94",
+                   job->raster.name);
+}
+
+void wf_job_settle(weft_job *job) {
+    job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
+}
+
+weft_status wf_job_check(const weft_job *job, weft_error *err) {
+    const struct {
+        bool wrong;
+        const char *says;
+    } rules[] = {
+        {!job->input_count && job->command != WF_CONVERT,
+         "no scene; give one, such as examples/scenes/carousel.lua"},
+        {job->input_count > 1 && job->command != WF_CONVERT,
+         "one scene at a time; others can be taken in by its include"},
+        {job->command == WF_TRACE && wf_ratio_given(job->error),
+         "--error is for render: samples that are written are as many everywhere"},
+        {job->command == WF_TRACE && job->separate_fields,
+         "--fields is for pictures of fields, and trace stores samples; give it to convert"},
+        {!job->input_count,
+         "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
+         "directory"},
+        {!job->output, "nowhere to write; give an output, such as -o out.y4m"},
+        {job->width_given && job->angle_given,
+         "--temporal-width and --shutter-angle say the same thing; give one of them"},
+        {job->to && job->display,
+         "--to and --display both name the output's color; give one of them"},
+        {job->to && job->view,
+         "--to and --view both name the output's color; give one of them"},
+        {job->view && !job->display,
+         "--view needs the display it belongs to; give --display too"},
+        {job->look && !job->to && !job->display,
+         "--look needs to know what it leads to; give --to, or --display and --view"},
+        {job->overwrite && job->resume, "--overwrite makes everything again and --resume only "
+                                        "what is not there; give one of them"},
+        {job->resume && job->output && !strcmp(job->output, "-"),
+         "--resume: standard output cannot be resumed; write to a file"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i].wrong) return wf_fail(err, WEFT_USAGE, "%s", rules[i].says);
+    weft_status status = check_cadence(job, err);
+    return status ? status : check_timecode(job, err);
+}

@@ -1,0 +1,97 @@
+#ifndef WF_CONVERT_JOB_JOB_H
+#define WF_CONVERT_JOB_JOB_H
+
+#include <signal.h>
+
+#include "color/codes/encoder.h"
+#include "convert/base/fail.h"
+#include "convert/job/choices.h"
+#include "filters/aperture/aperture.h"
+#include "filters/raster/raster.h"
+#include "tracer/sample/sampler.h"
+
+/* Everything a conversion was asked for; convert/options.c fills it, one table row an option.
+ * Strings are owned by the job. */
+struct weft_job {
+    wf_command command;
+    char **inputs;
+    size_t input_count;
+    char *output;
+
+    wf_raster raster;
+    wf_aperture aperture;          /* its width is the option's if one was given */
+    wf_rational temporal_width;    /* field periods; {0,0}: the aperture's */
+    bool width_given, angle_given; /* which of the two options that set it were */
+    wf_position shutter_position;
+    wf_rational scan_skew;
+    wf_cadence cadence;
+
+    char *frames;              /* range of the selection; NULL: all */
+    wf_rational subframe_rate; /* {0,0}: from the files */
+    bool subframe_time_center;
+    wf_fit fit;
+    wf_rational input_par; /* {0,0}: from the files */
+    float background[3];   /* scene-linear */
+    char *layer, *part;
+
+    char *ocio, *from, *to, *display, *view, *look;
+    int bits; /* 0: the output's default */
+    wf_code_range range;
+    wf_chroma chroma;
+    wf_legalize legalize;
+    wf_dither dither;
+
+    wf_sampler_kind sampler;
+    int64_t samples; /* a pixel, frame line and field */
+    int64_t seed;
+    wf_rational error; /* RMS, display-encoded; {0,0}: none asked for */
+    char *oversample;  /* "SxLxT"; NULL: none */
+    int64_t scene_steps;
+    size_t scene_memory_bytes;
+    char **params; /* "NAME=VALUE" of --set */
+    size_t param_count;
+    wf_on_empty on_empty;
+
+    bool separate_fields; /* of image sequences: a file each */
+    char *timecode;       /* of frame 0; NULL: the input's, or 00:00:00:00 */
+    char *codec;          /* NULL: the container's default */
+    int silent_tracks;    /* of sound, in containers */
+    wf_on_missing on_missing;
+    wf_nan_fix nan_fix;
+    int chunk, chunk_count; /* 1-based */
+    int threads;            /* 0: all */
+    bool skip;              /* --skip on */
+    size_t max_memory_bytes;
+    bool overwrite, resume;
+    bool dry_run;
+
+    weft_progress_fn *progress;
+    void *progress_user;
+    weft_warning_fn *warning;
+    void *warning_user;
+    volatile sig_atomic_t cancelled;
+    _Atomic int64_t legal_pixels, legal_touched, legal_outside; /* of r103, in the last run */
+    _Atomic int64_t legal_worst; /* most pixels left outside in a frame */
+    char *report;                /* JSON of the last run */
+    char *plan;                  /* of a dry run, for people; NULL: there is none */
+};
+
+/* "convert", "render", "trace". */
+const char *wf_command_name(wf_command command);
+
+/* Sends a message to the job's warning function. */
+void wf_job_warn(const weft_job *job, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Gives a zeroed job what the presets of its options say. */
+weft_status wf_job_preset(weft_job *job, weft_error *err);
+
+/* Contradictions between options that can be seen without opening a file: what weft_job_run
+ * looks at first. Options may be set in any order. */
+weft_status wf_job_check(const weft_job *job, weft_error *err);
+
+/* What only shows when all options are known, of a job that wf_job_check passes: the raster
+ * takes on the cadence. */
+void wf_job_settle(weft_job *job);
+
+#endif

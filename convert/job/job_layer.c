@@ -1,0 +1,39 @@
+#include <stdlib.h>
+
+#include "convert/job/jobfile.h"
+
+void wf_job_layer_begin(weft_job *job, wf_job_layer *layer) {
+    *layer = (wf_job_layer){job->to,     job->display,     job->view,       job->overwrite,
+                            job->resume, job->width_given, job->angle_given};
+    job->to = job->display = job->view = NULL;
+    job->overwrite = job->resume = job->width_given = job->angle_given = false;
+}
+
+/* What the layer did not say, and does not exclude, is as it was. */
+static void restore(char **now, char *before, bool excluded) {
+    if (*now || excluded)
+        free(before);
+    else
+        *now = before;
+}
+
+void wf_job_layer_end(weft_job *job, wf_job_layer *layer) {
+    bool space = job->to, display = job->display || job->view;
+    restore(&job->to, layer->to, display);
+    restore(&job->display, layer->display, space);
+    restore(&job->view, layer->view, space);
+    if (!job->overwrite && !job->resume) {
+        job->overwrite = layer->overwrite;
+        job->resume = layer->resume;
+    }
+    if (!job->width_given && !job->angle_given) {
+        job->width_given = layer->width_given;
+        job->angle_given = layer->angle_given;
+    }
+    *layer = (wf_job_layer){0};
+}
+
+void wf_job_clear_inputs(weft_job *job) {
+    for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
+    job->input_count = 0;
+}

@@ -1,0 +1,49 @@
+#ifndef WF_CONVERT_JOB_OUTPUT_H
+#define WF_CONVERT_JOB_OUTPUT_H
+
+#include "convert/base/fail.h"
+#include "filters/raster/raster.h"
+
+/* Outputs as a job asks for them: what kinds there are, and what one is told of a run. How they
+ * are written is convert/write. */
+
+/* Samples of a frame: linear light as floats, R'G'B' codes or Y'CbCr codes. */
+typedef enum wf_layout { WF_LINEAR, WF_RGB, WF_YCBCR } wf_layout;
+
+/* One kind of output. */
+typedef struct wf_output_kind {
+    const char *name;    /* of a delivery the codec's, as --codec has it */
+    const char *endings; /* "y4m -", blank separated; sequences: "exr" */
+    const char *help;    /* one line for people */
+    wf_layout layout;    /* the layout it takes by default */
+    unsigned bits_mask;  /* 1u << bits for each depth it takes */
+    int default_bits;
+    bool full_range; /* default range */
+    bool sequence;   /* one file a frame, named by a pattern */
+    bool joins;      /* chunks of it can be joined by cat, or are files of their own */
+    bool fixed_422;  /* 4:2:2 is the only sampling it takes */
+    bool container;  /* holds sound beside the picture */
+} wf_output_kind;
+
+/* What an output is given for the whole run. Strings are borrowed. */
+typedef struct wf_output_options {
+    const char *output; /* as the user wrote it */
+    const wf_raster *raster;
+    wf_layout layout;
+    int bits; /* of the codes; 32 for WF_LINEAR */
+    bool full_range;
+    bool subsampled;     /* 4:2:2; false: 4:4:4 */
+    int64_t first_frame; /* of this chunk of the run */
+    int64_t frame_count;
+    bool separate_fields;      /* sequences: a file a field */
+    bool stream_header;        /* false: a later chunk, to be joined by cat */
+    const char *timecode;      /* of frame 0; validated */
+    const char *color_space;   /* what the codes are in, for metadata; "" if unknown */
+    wf_rational subframe_rate; /* "frames" are subframes; {0, 0}: they are frames */
+    const char *codec;         /* containers: what is coded; NULL: the container's default */
+    int silent_tracks;         /* containers: of sound */
+    int threads;               /* that an encoder may use; 0: all */
+    bool overwrite, resume;
+} wf_output_options;
+
+#endif

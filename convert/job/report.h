@@ -1,0 +1,58 @@
+#ifndef WF_CONVERT_JOB_REPORT_H
+#define WF_CONVERT_JOB_REPORT_H
+
+#include <stddef.h>
+
+#include "color/codes/encoder.h"
+#include "convert/base/json.h"
+#include "filters/raster/raster.h"
+
+/* What is known of the legality of the codes written. Shares of the picture are of all pixels
+ * of all frames. */
+typedef struct wf_report_legal {
+    const char
+        *legalize;      /* "none", "clip", "r103"; NULL: nothing was quantised, "legal" is {} */
+    const char *dither; /* "none", "tpdf" */
+    const char *range;  /* "narrow", "full" */
+    int bits;
+    wf_legal_counts counts; /* of r103; pixels 0: none were counted */
+    double worst_share;     /* of a frame, left outside: the most of all frames */
+} wf_report_legal;
+
+/* What a run has to tell (cli.md, Report). Everything is borrowed; NULL, 0 and {0} mean "not
+ * known" or "none" and are safe in every member. */
+typedef struct wf_report {
+    const char *command;     /* "convert" */
+    const wf_raster *raster; /* NULL: "raster" is {} */
+    int64_t frames, fields;  /* written by this run */
+
+    int64_t listed, opened; /* subframes selected, missing ones included; files opened */
+    wf_rational *missing;   /* [missing_count] numbers absent from the selection */
+    size_t missing_count;
+    int64_t chunks_decoded, chunks_reused, nan_fixed;
+
+    bool traced; /* false: "tracer" is {} */
+    int64_t samples, rays, tiles, tiles_skipped, tiles_reused, fields_reused;
+    double error_estimate; /* RMS, display-encoded; 0: none was made */
+
+    wf_report_legal legal;
+    void (*add_plan)(wf_json *json, const void *plan); /* of a dry run; NULL: of none */
+    void *plan;
+    double trace_s; /* of all threads together, as the others but wall are */
+    double wall_s, decode_s, resample_s, color_s, write_s;
+    int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
+    bool degraded;             /* frames were held or samples mended */
+    const char *error;         /* why the run failed; NULL: it did not */
+} wf_report;
+
+/* The report as one JSON object of several lines, newline at its end. Owned by the caller,
+ * freed with free(); NULL when memory is out. */
+char *wf_report_json(const wf_report *report);
+
+/* A member that describes a raster, for reports and listings. */
+void wf_report_raster(wf_json *json, const char *key, const wf_raster *raster);
+
+/* The most memory this process has held at one time; 0 if the system does not say. */
+int64_t wf_peak_memory_bytes(void);
+
+#endif

@@ -1,0 +1,181 @@
+#include "convert/media/formats.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <libdeflate.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "convert/media/klv.h"
+
+/* A file under examination. */
+typedef struct exam {
+    const char *path;
+    FILE *file;
+    uint64_t bytes; /* in all */
+    weft_error *err;
+} exam;
+
+static weft_status damaged(const exam *x, const char *what) {
+    return wf_fail(x->err, WEFT_FAILED, "%.700s: the file is damaged: %s; write it again",
+                   x->path, what);
+}
+
+static bool read_at(const exam *x, uint64_t offset, void *to, size_t bytes) {
+    if (offset > x->bytes || bytes > x->bytes - offset) return false;
+    return !fseeko(x->file, (off_t)offset, SEEK_SET) && fread(to, 1, bytes, x->file) == bytes;
+}
+
+/* ---- PNG (ISO/IEC 15948): chunks of a length, a name, data and their CRC ---- */
+
+#define PNG_SIGNATURE_BYTES 8
+#define PNG_FRAME_BYTES     12 /* of a chunk, around its data */
+
+/* The sum over `bytes` bytes, of which the file has enough. */
+static bool sum_data(const exam *x, uint32_t *sum, uint64_t bytes) {
+    uint8_t block[16384];
+    while (bytes) {
+        size_t step = bytes < sizeof block ? (size_t)bytes : sizeof block;
+        if (fread(block, 1, step, x->file) != step) return false;
+        *sum = libdeflate_crc32(*sum, block, step);
+        bytes -= step;
+    }
+    return true;
+}
+
+/* The decoder stops at the last line and so never sees the end of the data, nor its sum. */
+static weft_status examine_png(const exam *x) {
+    for (uint64_t at = PNG_SIGNATURE_BYTES;;) {
+        uint8_t head[8], tail[4];
+        if (!read_at(x, at, head, sizeof head))
+            return damaged(x, "it ends before its IEND chunk");
+        uint64_t bytes = wf_big_endian(head, 4);
+        if (bytes + PNG_FRAME_BYTES > x->bytes - at)
+            return damaged(x, "it ends within a chunk");
+        uint32_t sum = libdeflate_crc32(0, head + 4, 4);
+        if (!sum_data(x, &sum, bytes) || fread(tail, 1, sizeof tail, x->file) != sizeof tail)
+            return damaged(x, "it cannot be read to its end");
+        if (sum != wf_big_endian(tail, 4))
+            return damaged(x, "the checksum of a chunk is wrong");
+        if (!memcmp(head + 4, "IEND", 4)) return WEFT_OK;
+        at += bytes + PNG_FRAME_BYTES;
+    }
+}
+
+/* ---- JPEG ---- */
+
+/* Decoders fill what is missing with grey. Some writers pad behind the end-of-image marker. */
+static weft_status examine_jpeg(const exam *x) {
+    uint8_t tail[1024];
+    size_t bytes = x->bytes < sizeof tail ? (size_t)x->bytes : sizeof tail;
+    if (!read_at(x, x->bytes - bytes, tail, bytes))
+        return damaged(x, "it cannot be read to its end");
+    for (size_t i = 0; i + 1 < bytes; i++)
+        if (tail[i] == 0xff && tail[i + 1] == 0xd9) return WEFT_OK;
+    return damaged(x, "it ends before its end-of-image marker");
+}
+
+/* ---- DPX (SMPTE ST 268) ---- */
+
+#define DPX_HEADER_BYTES 2048
+#define DPX_USER_SIZE    32
+#define DPX_ELEMENTS     770 /* U16 */
+#define DPX_WIDTH        772
+#define DPX_ELEMENT      780 /* 72 bytes each */
+#define DPX_UNDEFINED    UINT32_MAX
+
+static uint32_t dpx_word(const uint8_t *header, size_t offset) {
+    const uint8_t *b = header + offset;
+    bool little = header[0] == 'X';
+    uint32_t word = (uint32_t)wf_big_endian(b, 4);
+    return little ? __builtin_bswap32(word) : word;
+}
+
+/* The least that one element's samples take: as if they were packed without a gap. */
+static uint64_t dpx_element_bytes(const uint8_t *header, const uint8_t *element) {
+    static const struct {
+        uint8_t descriptor, components;
+    } kinds[] = {{50, 3}, {51, 4}, {52, 4}, {100, 2}, {101, 3}, {102, 3}, {103, 4}};
+    uint64_t components = 1;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].descriptor == element[20]) components = kinds[i].components;
+    uint64_t pixels = (uint64_t)dpx_word(header, DPX_WIDTH) * dpx_word(header, DPX_WIDTH + 4);
+    return pixels > UINT64_MAX / 1024 ? UINT64_MAX : pixels * components * element[23] / 8;
+}
+
+/* The reader takes memory for as much user data as the header metadata. */
+static weft_status examine_dpx(const exam *x) {
+    uint8_t header[DPX_HEADER_BYTES];
+    if (!read_at(x, 0, header, sizeof header)) return damaged(x, "its header is not whole");
+    uint32_t user = dpx_word(header, DPX_USER_SIZE);
+    if (user != DPX_UNDEFINED && user > x->bytes - sizeof header)
+        return damaged(x, "its header states more user data than the file has");
+    const uint8_t *element = header + DPX_ELEMENT;
+    uint32_t offset = dpx_word(header, DPX_ELEMENT + 28);
+    if (offset == DPX_UNDEFINED || offset == 0) offset = dpx_word(header, 4);
+    bool encoded =
+        dpx_word(header, DPX_ELEMENT + 24) & (header[0] == 'X' ? 0xffff0000 : 0xffff);
+    if (offset > x->bytes ||
+        (!encoded && dpx_element_bytes(header, element) > x->bytes - offset))
+        return damaged(x, "it ends before its picture does");
+    return WEFT_OK;
+}
+
+/* ---- The formats ---- */
+
+static weft_status examine_nothing(const exam *x) {
+    (void)x;
+    return WEFT_OK;
+}
+
+#define MAGIC_MOST 8
+
+static const struct {
+    const char *name;
+    const char *magic;
+    uint8_t magic_bytes;
+    weft_status (*examine)(const exam *x);
+} formats[] = {
+    {"openexr", "\x76\x2f\x31\x01", 4, examine_nothing},
+    {"dpx", "SDPX", 4, examine_dpx},
+    {"dpx", "XPDS", 4, examine_dpx},
+    {"tiff", "II*\0", 4, examine_nothing},
+    {"tiff", "MM\0*", 4, examine_nothing},
+    {"tiff", "II+\0", 4, examine_nothing},
+    {"tiff", "MM\0+", 4, examine_nothing},
+    {"png", "\x89PNG\r\n\x1a\n", 8, examine_png},
+    {"jpeg", "\xff\xd8\xff", 3, examine_jpeg},
+};
+
+static weft_status examine(const exam *x, const char **format) {
+    uint8_t head[MAGIC_MOST] = {0};
+    size_t got = fread(head, 1, sizeof head, x->file);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        if (got < formats[i].magic_bytes ||
+            memcmp(head, formats[i].magic, formats[i].magic_bytes))
+            continue;
+        *format = formats[i].name;
+        return formats[i].examine(x);
+    }
+    return wf_fail(
+        x->err, WEFT_FAILED,
+        "%.700s: it does not begin like an EXR, DPX, TIFF, PNG or JPEG, which weft reads; "
+        "convert it first (oiiotool IN -o OUT.exr does)",
+        x->path);
+}
+
+weft_status wf_format_of(const char *path, const char **format, weft_error *err) {
+    struct stat about;
+    exam x = {.path = path, .file = fopen(path, "rbe"), .err = err};
+    if (!x.file || fstat(fileno(x.file), &about)) {
+        int code = errno;
+        if (x.file) fclose(x.file);
+        return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(code));
+    }
+    x.bytes = (uint64_t)about.st_size;
+    weft_status status = examine(&x, format);
+    fclose(x.file);
+    return status;
+}

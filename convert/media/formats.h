@@ -1,0 +1,15 @@
+#ifndef WF_CONVERT_MEDIA_FORMATS_H
+#define WF_CONVERT_MEDIA_FORMATS_H
+
+#include "convert/base/fail.h"
+
+/* Formats of single pictures that are read through OpenImageIO, told by how files begin and not
+ * by their names. OpenImageIO would try every plugin it has on a file it does not know. */
+
+/* *format receives OpenImageIO's name of the format of the file at path ("png"), static
+ * storage. What decoders pass over in silence is looked at here: checksums of PNG, the ends of
+ * JPEG, the sizes DPX states. Damage, and a format that is not one of them, is an error that
+ * names the file. */
+weft_status wf_format_of(const char *path, const char **format, weft_error *err);
+
+#endif

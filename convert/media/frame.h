@@ -1,0 +1,15 @@
+#ifndef WF_CONVERT_MEDIA_FRAME_H
+#define WF_CONVERT_MEDIA_FRAME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* One finished frame, both fields woven, top line first. Planes are R G B or Y Cb Cr, each line
+ * stride[p] samples after the last. Codes are uint16_t, WF_LINEAR is float. */
+typedef struct wf_frame {
+    const void *plane[3];
+    size_t stride[3];
+    int64_t index; /* from 0 in the whole run, chunk or not */
+} wf_frame;
+
+#endif

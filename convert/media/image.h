@@ -1,0 +1,30 @@
+#ifndef WF_CONVERT_MEDIA_IMAGE_H
+#define WF_CONVERT_MEDIA_IMAGE_H
+
+#include "filters/base/rational.h"
+
+/* What files of pictures say of themselves. */
+
+/* Half-open pixel rectangle: x0 <= x < x1. */
+typedef struct wf_box {
+    int x0, y0, x1, y1;
+} wf_box;
+
+/* What a subframe says of itself. */
+typedef struct wf_image_info {
+    wf_box display, data; /* the file's windows */
+    double pixel_aspect;  /* 1 where the file has none */
+    wf_rational rate;     /* weft:subframeRate, else framesPerSecond; {0,0} if neither */
+    wf_rational frames;   /* framesPerSecond, which timecode counts; {0,0} if none */
+    wf_rational time_s;   /* weft:time; {0,0} if none */
+    bool has_alpha;
+    int band_lines;     /* height of its natural bands: a chunk, a row of tiles; counted from
+                           data.y0. Reading whole bands reads nothing twice. */
+    bool whole;         /* the reader holds the whole picture (not chunked): open few at once */
+    char timecode[16];  /* "" if none */
+    bool timecode_mark; /* its field mark: the second of a pair */
+    char raster[64];    /* weft:raster; "" if none */
+    char format[96];    /* for people: "OpenEXR scanline, ZIP, R G B half" */
+} wf_image_info;
+
+#endif

@@ -1,0 +1,332 @@
+/* The libav module: the first video stream of any file that libavformat and libavcodec read. */
+#include "convert/media/libav/libav.h"
+
+#include <inttypes.h>
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/parseutils.h>
+#include <libavutil/pixdesc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+WEFT_API wf_libav_kind_fn wf_libav_kind;
+
+typedef struct reading {
+    AVFormatContext *format;
+    AVCodecContext *codec;
+    AVPacket *packet;
+    AVFrame *frame;
+    const AVPixFmtDescriptor *pixels;
+    int stream;
+    bool have; /* frame holds the next one */
+    bool drained;
+    int64_t packets; /* of the stream, read so far */
+    double end_s;    /* of the last one */
+    uint16_t *code;  /* [width] */
+} reading;
+
+static weft_status failed(const wf_video *v, const char *doing, int code, weft_error *err) {
+    char why[AV_ERROR_MAX_STRING_SIZE] = "";
+    av_strerror(code, why, sizeof why);
+    return wf_fail(err, code == AVERROR(ENOMEM) ? WEFT_NO_MEMORY : WEFT_FAILED, "%s: %s: %s",
+                   v->path, doing, why);
+}
+
+/* ---- Opening ---- */
+
+static weft_status open_file(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    char *url = malloc(strlen(v->path) + sizeof "file:"); /* a ':' is no protocol's */
+    if (!url) return wf_video_no_memory(v, err);
+    strcat(strcpy(url, "file:"), v->path);
+    int code = avformat_open_input(&r->format, url, NULL, NULL);
+    free(url);
+    if (code < 0)
+        return failed(v, "it is no video that libav knows, nor Y4M, v210, uyvy or a picture",
+                      code, err);
+    code = avformat_find_stream_info(r->format, NULL);
+    if (code < 0) return failed(v, "its streams cannot be found out", code, err);
+    r->stream = av_find_best_stream(r->format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
+    if (r->stream < 0) return wf_fail(err, WEFT_FAILED, "%s: it holds no video", v->path);
+    return WEFT_OK;
+}
+
+static weft_status open_decoder(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    const AVCodecParameters *par = r->format->streams[r->stream]->codecpar;
+    const AVCodec *decoder = avcodec_find_decoder(par->codec_id);
+    if (!decoder)
+        return wf_fail(err, WEFT_FAILED, "%s: libav has no decoder for its video (%s)", v->path,
+                       avcodec_get_name(par->codec_id));
+    r->codec = avcodec_alloc_context3(decoder);
+    r->packet = av_packet_alloc();
+    r->frame = av_frame_alloc();
+    if (!r->codec || !r->packet || !r->frame) return wf_video_no_memory(v, err);
+    int code = avcodec_parameters_to_context(r->codec, par);
+    r->codec->thread_count = 0; /* one a core */
+    if (code >= 0) code = avcodec_open2(r->codec, decoder, NULL);
+    return code < 0 ? failed(v, "its decoder cannot be opened", code, err) : WEFT_OK;
+}
+
+/* ---- Frames ---- */
+
+static void note_packet(reading *r) {
+    const AVStream *stream = r->format->streams[r->stream];
+    int64_t start = r->packet->pts != AV_NOPTS_VALUE ? r->packet->pts : r->packet->dts;
+    double end = (double)(start + r->packet->duration) * av_q2d(stream->time_base);
+    r->packets++;
+    if (start != AV_NOPTS_VALUE && end > r->end_s) r->end_s = end;
+}
+
+/* Hands the decoder the next packet of the stream; at the end, that there are no more. */
+static weft_status feed(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    int code = av_read_frame(r->format, r->packet);
+    if (code == AVERROR_EOF) {
+        r->drained = true;
+        avcodec_send_packet(r->codec, NULL);
+        return WEFT_OK;
+    }
+    if (code < 0) return failed(v, "it cannot be read to its end", code, err);
+    bool damaged = r->packet->flags & AV_PKT_FLAG_CORRUPT;
+    if (r->packet->stream_index == r->stream) note_packet(r);
+    if (r->packet->stream_index == r->stream)
+        code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
+    av_packet_unref(r->packet);
+    if (code >= 0) return WEFT_OK;
+    char doing[64];
+    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64,
+             v->frame.index < 0 ? 0 : v->frame.index);
+    return failed(v, doing, code, err);
+}
+
+/* Decodes until a frame is there, or the stream has ended. */
+static weft_status decode(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    weft_status status = WEFT_OK;
+    while (!status && !r->have) {
+        int code = avcodec_receive_frame(r->codec, r->frame);
+        r->have = code >= 0;
+        if (code == AVERROR_EOF || (code == AVERROR(EAGAIN) && r->drained)) break;
+        if (code == AVERROR(EAGAIN))
+            status = feed(v, err);
+        else if (code < 0)
+            status = failed(v, "it cannot be decoded", code, err);
+    }
+    if (!status && r->have && r->frame->decode_error_flags)
+        status = wf_fail(err, WEFT_FAILED, "%s: frame %" PRId64 " is damaged", v->path,
+                         v->frame.index);
+    return status;
+}
+
+/* ---- What it is ---- */
+
+/* libav's TB and BT are what QuickTime's {2,9} and {2,14} become: the first letter is the field
+ * that is shown first, whatever the names' comments say. */
+static void label_scan(const reading *r, wf_video_label *label) {
+    enum AVFieldOrder order = r->codec->field_order;
+    bool unknown = order == AV_FIELD_UNKNOWN, frame_says = r->frame->interlaced_frame;
+    /* The parser of H.264 takes MBAFF for progressive. */
+    if (order == AV_FIELD_PROGRESSIVE && frame_says) unknown = true;
+    label->interlaced = unknown ? frame_says : order != AV_FIELD_PROGRESSIVE;
+    label->top_first = unknown ? frame_says && r->frame->top_field_first
+                               : order == AV_FIELD_TT || order == AV_FIELD_TB;
+    label->scan_known = !unknown || frame_says;
+}
+
+/* Colors as they are tagged; what is not is the raster's. */
+static void label_color(const reading *r, wf_video_label *label) {
+    static const struct {
+        enum AVColorSpace space;
+        enum AVColorPrimaries primaries; /* AVCOL_PRI_UNSPECIFIED: any */
+        wf_matrix matrix;
+    } rows[] = {{AVCOL_SPC_BT709, AVCOL_PRI_UNSPECIFIED, WF_709},
+                {AVCOL_SPC_BT2020_NCL, AVCOL_PRI_UNSPECIFIED, WF_2020},
+                {AVCOL_SPC_BT470BG, AVCOL_PRI_UNSPECIFIED, WF_601_625},
+                {AVCOL_SPC_SMPTE170M, AVCOL_PRI_BT470BG, WF_601_625},
+                {AVCOL_SPC_SMPTE170M, AVCOL_PRI_UNSPECIFIED, WF_601_525}};
+    const AVFrame *f = r->frame;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !label->matrix_known; i++) {
+        bool any = rows[i].primaries == AVCOL_PRI_UNSPECIFIED;
+        label->matrix_known =
+            f->colorspace == rows[i].space && (any || f->color_primaries == rows[i].primaries);
+        label->matrix = rows[i].matrix;
+    }
+    label->transfer = f->color_trc == AVCOL_TRC_SMPTE2084      ? WF_TRANSFER_PQ
+                      : f->color_trc == AVCOL_TRC_ARIB_STD_B67 ? WF_TRANSFER_HLG
+                                                               : WF_TRANSFER_BT1886;
+}
+
+static weft_status describe_pixels(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    const AVPixFmtDescriptor *d = r->pixels =
+        av_pix_fmt_desc_get((enum AVPixelFormat)r->frame->format);
+    const uint64_t strange = AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER |
+                             AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_PAL |
+                             AV_PIX_FMT_FLAG_BITSTREAM;
+    if (!d || d->flags & strange || d->comp[0].depth < 8 || d->comp[0].depth > 16)
+        return wf_fail(err, WEFT_FAILED, "%s: its pixels are %s, which is not read", v->path,
+                       d ? d->name : "unknown");
+    wf_video_info *info = &v->info;
+    bool rgb = d->flags & AV_PIX_FMT_FLAG_RGB, jpeg = !strncmp(d->name, "yuvj", 4);
+    snprintf(info->format, sizeof info->format, "%s %s %s", r->format->iformat->name,
+             avcodec_get_name(r->codec->codec_id), d->name);
+    info->layout = rgb ? WF_RGB : WF_YCBCR;
+    info->bits = d->comp[0].depth;
+    info->full_range = rgb || jpeg || r->frame->color_range == AVCOL_RANGE_JPEG;
+    info->planes = d->nb_components < 3 ? 1 : 3;
+    info->across = 1 << d->log2_chroma_w;
+    info->down = 1 << d->log2_chroma_h;
+    return WEFT_OK;
+}
+
+static wf_rational ratio_of(AVRational r) {
+    return r.num > 0 && r.den > 0 ? wf_ratio(r.num, r.den) : (wf_rational){0, 0};
+}
+
+/* D-10 (SMPTE ST 356) codes the end of the vertical interval with the picture. */
+static int interval_lines(const reading *r) {
+    const AVFrame *f = r->frame;
+    if (r->codec->codec_id != AV_CODEC_ID_MPEG2VIDEO || f->width != 720) return 0;
+    return f->height == 608 ? 32 : f->height == 512 ? 26 : 0;
+}
+
+/* MXF tells the aspect ratio of the picture, which is not quite that of a line of 601. */
+static wf_rational pixel_aspect(const reading *r, int lines) {
+    static const struct {
+        int lines;
+        wf_rational narrow, wide;
+    } rows[] = {
+        {480, {10, 11}, {40, 33}}, {486, {10, 11}, {40, 33}}, {576, {12, 11}, {16, 11}}};
+    AVStream *stream = r->format->streams[r->stream];
+    /* The container's word counts before the codec's, which may have none. */
+    wf_rational given = ratio_of(av_guess_sample_aspect_ratio(r->format, stream, r->frame));
+    if (strcmp(r->format->iformat->name, "mxf") || r->frame->width != 720) return given;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].lines == lines && wf_ratio_given(given))
+            return wf_ratio_value(given) > 1.15 ? rows[i].wide : rows[i].narrow;
+    return given;
+}
+
+static void describe_stream(wf_video *v, wf_video_label *label) {
+    const reading *r = v->state;
+    const AVStream *stream = r->format->streams[r->stream];
+    wf_rational average = ratio_of(stream->avg_frame_rate);
+    v->info.width_px = r->frame->width;
+    v->info.interval_lines = interval_lines(r);
+    v->info.lines = r->frame->height - v->info.interval_lines;
+    v->info.frames = stream->nb_frames > 0 ? stream->nb_frames : -1;
+    label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
+    label->aspect = pixel_aspect(r, v->info.lines);
+    label_scan(r, label);
+    label_color(r, label);
+}
+
+static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
+    reading *r = v->state = calloc(1, sizeof *r);
+    if (!r) return wf_video_no_memory(v, err);
+    av_log_set_level(AV_LOG_QUIET);
+    weft_status status = open_file(v, err);
+    if (!status) status = open_decoder(v, err);
+    if (!status) status = decode(v, err);
+    if (!status && !r->have)
+        status = wf_fail(err, WEFT_FAILED, "%s: there is no frame in its video", v->path);
+    if (!status) status = describe_pixels(v, err);
+    if (status) return status;
+    describe_stream(v, label);
+    r->code = malloc((size_t)v->info.width_px * sizeof *r->code);
+    return r->code ? WEFT_OK : wf_video_no_memory(v, err);
+}
+
+/* ---- Reading ---- */
+
+/* Components of RGB and of Y'CbCr formats come in the order of weft's planes. */
+static void take_frame(wf_video *v) {
+    reading *r = v->state;
+    const AVFrame *f = r->frame;
+    for (int p = 0; p < v->info.planes; p++)
+        for (int y = 0; y < v->frame.lines[p]; y++) {
+            av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0,
+                                y + v->info.interval_lines, p, v->frame.width_px[p], 0,
+                                sizeof *r->code);
+            wf_video_take_codes(v, p, y, r->code);
+        }
+}
+
+static weft_status check_frame(const wf_video *v, weft_error *err) {
+    const reading *r = v->state;
+    const AVFrame *f = r->frame;
+    if (f->width == v->info.width_px && f->height == v->info.lines + v->info.interval_lines &&
+        av_pix_fmt_desc_get((enum AVPixelFormat)f->format) == r->pixels)
+        return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: frame %" PRId64 " is %dx%d and of other pixels than the ones before it "
+                   "(%dx%d %s)",
+                   v->path, v->frame.index, f->width, f->height, v->info.width_px,
+                   v->info.lines, r->pixels->name);
+}
+
+/* How long the stream says that it is; 0: it does not. Matroska keeps it in a tag. */
+static double stated_length_s(const reading *r) {
+    const AVStream *stream = r->format->streams[r->stream];
+    const AVDictionaryEntry *tag = av_dict_get(stream->metadata, "DURATION", NULL, 0);
+    int64_t microseconds;
+    if (tag && av_parse_time(&microseconds, tag->value, 1) >= 0)
+        return 1e-6 * (double)microseconds;
+    return r->format->nb_streams == 1 && r->format->duration > 0
+               ? (double)r->format->duration / AV_TIME_BASE
+               : 0;
+}
+
+/* How many packets the file's index has for the stream; 0 where that means something else. */
+static int64_t stated_packets(const reading *r) {
+    const char *format = r->format->iformat->name;
+    const AVStream *stream = r->format->streams[r->stream];
+    if (!strncmp(format, "mov", 3)) return stream->nb_frames;
+    return !strcmp(format, "mxf") && stream->duration > 0 ? stream->duration : 0;
+}
+
+/* libavformat takes a file that was cut for one that has ended. */
+static weft_status check_end(const wf_video *v, weft_error *err) {
+    const reading *r = v->state;
+    int64_t packets = stated_packets(r);
+    double frame_s = 1 / wf_ratio_value(v->info.raster.frame_rate);
+    bool matroska = !strncmp(r->format->iformat->name, "matroska", 8);
+    double length_s = matroska ? stated_length_s(r) : 0;
+    if (r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: it ends after %" PRId64
+                   " frames, before what it says is its end; write "
+                   "it again",
+                   v->path, v->frame.index);
+}
+
+static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
+    reading *r = v->state;
+    weft_status status = decode(v, err);
+    *more = r->have;
+    if (status) return status;
+    if (!r->have) return check_end(v, err);
+    status = check_frame(v, err);
+    if (!status) take_frame(v);
+    av_frame_unref(r->frame);
+    r->have = false;
+    return status;
+}
+
+static void libav_close(wf_video *v) {
+    reading *r = v->state;
+    if (!r) return;
+    free(r->code);
+    av_frame_free(&r->frame);
+    av_packet_free(&r->packet);
+    avcodec_free_context(&r->codec);
+    avformat_close_input(&r->format);
+    free(r);
+}
+
+const wf_video_kind *wf_libav_kind(void) {
+    static const wf_video_kind kind = {libav_open, libav_next, libav_close};
+    return &kind;
+}

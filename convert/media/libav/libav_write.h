@@ -1,0 +1,52 @@
+#ifndef WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITE_H
+#define WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITE_H
+
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+
+#include "convert/base/outfile.h"
+#include "convert/job/colors.h"
+#include "convert/media/libav/libav.h"
+
+/* What the files of the libav module that write share. */
+
+#define WF_SOUND_RATE 48000
+
+/* Silent PCM beside a video. */
+typedef struct wf_sound {
+    AVCodecContext *codec; /* NULL: none */
+    AVFrame *frame;
+    int streams, first_stream; /* of the file: one a track, or one for all */
+    int64_t samples;           /* written so far */
+} wf_sound;
+
+typedef struct wf_writing {
+    wf_output_options options;
+    const wf_delivery *delivery;
+    const wf_delivery_form *form;
+    wf_raster raster; /* as it is in the file */
+    wf_color_tags tags;
+    wf_outfile *file;
+    weft_error failure; /* the file's own words, where it was what failed */
+    AVFormatContext *format;
+    AVCodecContext *codec;
+    AVStream *stream;
+    AVFrame *frame;
+    AVPacket *packet;
+    wf_sound sound;
+    int64_t frames;
+} wf_writing;
+
+/* An error of libav's, in its words and the file's. */
+weft_status wf_writing_failed(const wf_writing *w, const char *doing, int code,
+                              weft_error *err);
+
+/* Gives a packet of the encoder to the file. */
+int wf_writing_mux(wf_writing *w, const AVCodecContext *codec, int stream);
+
+/* Adds the streams; writes what belongs to the frames up to now; frees. */
+weft_status wf_sound_open(wf_writing *w, weft_error *err);
+weft_status wf_sound_write(wf_writing *w, weft_error *err);
+void wf_sound_free(wf_sound *sound);
+
+#endif

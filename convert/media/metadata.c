@@ -1,0 +1,28 @@
+#include "convert/media/metadata.h"
+
+#include <errno.h>
+#include <string.h>
+
+#include "convert/base/module.h"
+
+weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err) {
+    void *symbol;
+    wf_libav_metadata_fn *ask;
+    *metadata = (wf_metadata){.frames = -1, .frame_layout = -1, .dominance = -1, .siting = -1};
+    if (!wf_module_built("libav"))
+        return wf_fail(err, WEFT_FAILED,
+                       "%.700s: containers are read through libav, which this weft was built "
+                       "without: install libavformat-dev and libavcodec-dev and build it again",
+                       path);
+    weft_status status = wf_module_symbol("libav", "wf_libav_metadata", &symbol, err);
+    if (status) return status;
+    memcpy(&ask, &symbol, sizeof ask);
+    status = ask(path, metadata, err);
+    if (status) return status;
+    FILE *file = fopen(path, "rbe");
+    if (!file) return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(errno));
+    if (!strcmp(metadata->container, "mov")) wf_metadata_mov(file, metadata);
+    if (!strcmp(metadata->container, "mxf")) wf_metadata_mxf(file, metadata);
+    fclose(file);
+    return WEFT_OK;
+}

@@ -1,0 +1,55 @@
+#ifndef WF_CONVERT_MEDIA_METADATA_H
+#define WF_CONVERT_MEDIA_METADATA_H
+
+#include <stdio.h>
+
+#include "convert/base/fail.h"
+#include "convert/job/colors.h"
+#include "filters/raster/raster.h"
+
+/* What a delivered file says of itself, in its container and its streams; nothing here is
+ * looked up in pixels. */
+typedef struct wf_metadata {
+    char container[16]; /* libavformat's name: "mov", "mxf", "matroska" */
+    char codec[24], profile[48], pixels[24];
+    int width_px, lines; /* as coded */
+    wf_rational rate, pixel_aspect;
+    bool scan_known, interlaced, top_first;
+    bool coded_fields, coded_top_first; /* the first frame is coded as fields, in this order */
+    bool tagged;                        /* the next three are said */
+    wf_color_tags tags;
+    int64_t frames;    /* -1: not said */
+    double video_s;    /* how long the video is; 0: not said */
+    char timecode[32]; /* of the first frame, as it is written; "": none */
+    int timecode_base; /* labels a second, of QuickTime's and MXF's; 0: not said */
+    bool timecode_drop;
+    int sound_streams, sound_channels, sound_rate, sound_bits;
+    double sound_s; /* the shortest of them; 0: not said */
+
+    bool has_fiel, has_pasp, has_colr, has_clap; /* QuickTime's atoms */
+    int fiel[2];
+    int64_t clean[2]; /* width and lines of clap, in 65536ths */
+
+    bool has_line_map; /* MXF */
+    int line_map[2];
+    int frame_layout;   /* -1: none */
+    int dominance;      /* the field that is first in time; -1: none */
+    int siting;         /* of chroma; -1: none */
+    wf_rational aspect; /* of the picture; {0, 0}: none */
+    char pattern[8];    /* "OP1a"; "": no header */
+} wf_metadata;
+
+/* Asks the container: through the libav module, and the parts of MOV and MXF that libav keeps
+ * to itself by own readers. Y4M, raw files and pictures are not asked: WEFT_USAGE. */
+weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err);
+
+/* The own readers. What is not well formed ends the reading of it; nothing is read beyond the
+ * file. */
+void wf_metadata_mov(FILE *file, wf_metadata *metadata);
+void wf_metadata_mxf(FILE *file, wf_metadata *metadata);
+
+/* wf_libav_metadata, an entry point of the libav module. */
+typedef weft_status wf_libav_metadata_fn(const char *path, wf_metadata *metadata,
+                                         weft_error *err);
+
+#endif

@@ -1,0 +1,17 @@
+/* What every kind of video does alike. */
+#include "convert/media/video_kind.h"
+
+#include "color/codes/encoder.h"
+
+weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a frame", video->path);
+}
+
+void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code) {
+    const wf_video_info *info = &video->info;
+    const wf_encoding encoding = {
+        .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
+    size_t width = (size_t)video->frame.width_px[plane];
+    wf_decode_line(&encoding, plane, code, video->frame.plane[plane] + (size_t)line * width,
+                   width);
+}

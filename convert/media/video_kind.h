@@ -1,0 +1,74 @@
+#ifndef WF_CONVERT_MEDIA_VIDEO_KIND_H
+#define WF_CONVERT_MEDIA_VIDEO_KIND_H
+
+#include "color/codes/display.h"
+#include "convert/base/fail.h"
+#include "convert/job/output.h"
+
+/* Finished video as it is read, and what each kind of file has to do for it. */
+
+typedef struct wf_video_options {
+    const wf_raster *raster; /* what it is, as the user says; NULL: as the file says */
+    size_t max_memory_bytes; /* of one picture */
+} wf_video_options;
+
+typedef struct wf_video_info {
+    char format[96]; /* for people: "Y4M 422p10" */
+    int width_px, lines;
+    int interval_lines; /* of the vertical interval, coded above these and not read (D-10) */
+    wf_layout layout;   /* WF_LINEAR: EXR; WF_RGB: other pictures */
+    int bits;           /* of a code; 32: floats; 16 for pictures of unknown depth */
+    bool full_range;
+    int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
+    wf_transfer transfer; /* of the display it is made for */
+    int across, down;     /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */
+    wf_raster raster;     /* named by size, rate and label; with the user's or a made up name
+                             where none fits */
+    bool scan_known;      /* the file or the user says how it is scanned: raster.scan is not a
+                             guess */
+    int64_t frames;       /* -1: not known before the end */
+} wf_video_info;
+
+/* Planes R G B or Y Cb Cr, width_px[p] x lines[p], top line first, both fields woven. Signals:
+ * R'G'B' and Y' from 0 to 1, Cb and Cr from -1/2 to 1/2, linear light as it is. */
+typedef struct wf_video_frame {
+    float *plane[3];
+    int width_px[3], lines[3];
+    int64_t index; /* from 0 */
+} wf_video_frame;
+
+typedef struct wf_video wf_video;
+
+/* What a file says of how its frames are scanned and how fast they follow each other. */
+typedef struct wf_video_label {
+    bool scan_known, interlaced, top_first;
+    wf_rational rate, aspect; /* {0, 0}: not said */
+    const char *raster;       /* weft:raster; NULL or "": not said */
+    bool matrix_known;        /* else it is the raster's */
+    wf_matrix matrix;
+    wf_transfer transfer;
+} wf_video_label;
+
+typedef struct wf_video_kind {
+    /* Fills info but for its raster, and label, which may borrow from the state. */
+    weft_status (*open)(wf_video *video, wf_video_label *label, weft_error *err);
+    /* Fills the frame's planes; *more is false, and nothing read, after the last. */
+    weft_status (*next)(wf_video *video, bool *more, weft_error *err);
+    void (*close)(wf_video *video); /* after open, whatever it returned */
+} wf_video_kind;
+
+struct wf_video {
+    const wf_video_kind *kind;
+    char *path;
+    wf_video_options options;
+    wf_video_info info;
+    wf_video_frame frame;
+    void *state; /* the kind's */
+};
+
+/* Codes of a line of a plane to signals, into the frame. */
+void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code);
+
+weft_status wf_video_no_memory(const wf_video *video, weft_error *err);
+
+#endif

@@ -1,0 +1,95 @@
+#ifndef WF_CONVERT_PROGRAM_CMD_H
+#define WF_CONVERT_PROGRAM_CMD_H
+
+#include "convert/program/progress.h"
+#include "convert/weft.h"
+
+/* The values of an option that may be given several times, borrowed from argv. */
+#define WF_CMD_MOST_VALUES 32
+typedef struct wf_cmd_list {
+    char *value[WF_CMD_MOST_VALUES];
+    size_t count;
+} wf_cmd_list;
+
+/* An option that a command has of its own, beside those of a job. Given, it is stored in the
+ * command's state: a flag as a bool, one that repeats in a wf_cmd_list, anything else as a
+ * const char * that borrows from argv, of which the last of several wins. */
+typedef struct wf_cmd_option {
+    weft_option shown;
+    char letter; /* "-o"; 0: none */
+    size_t offset;
+    bool repeats;
+} wf_cmd_option;
+
+/* What a command takes and says of itself: the parser and the help are made of it. */
+typedef struct wf_cmd {
+    const char *name;
+    const char *operands; /* "INPUT... -o OUTPUT" */
+    const char *summary;  /* one line */
+    const char *text;     /* before the options: what it does, examples */
+    const char *notes;    /* after them; NULL: nothing */
+    const wf_cmd_option *options;
+    size_t option_count;
+    const char *const *job_options; /* names of weft_job_set's that it takes, ended by NULL;
+                                       NULL: every one */
+    weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
+} wf_cmd;
+
+extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
+    wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify, wf_cmd_manual,
+    wf_cmd_completion;
+
+/* All of them, by index; NULL past the end. */
+const wf_cmd *wf_cmd_at(size_t index);
+
+/* Reads a command's arguments into its state (the struct its options' offsets count in) and
+ * job. Operands are moved to the front of argv; *operand_count says how many. --name value,
+ * --name=value, -x value and -xvalue, in any order; -- ends the options. */
+weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, weft_job *job,
+                         int *operand_count, weft_error *err);
+
+/* Option i of the command: its own first, then the job's that it takes. False past the end. */
+bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter);
+
+/* Loads job files into job, and the command's own options that they hold into its state, whose
+ * values `kept` owns until wf_cmd_forget. A later file wins. */
+weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_list *files, void *state, weft_job *job,
+                        wf_cmd_list *kept, weft_error *err);
+void wf_cmd_forget(wf_cmd_list *kept);
+
+/* Which of the words of `takes` ("a|b|c") the value of --name is: *index gets it, and keeps
+ * what it is where nothing was given. */
+weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,
+                          weft_error *err);
+
+/* The option --progress, and a meter in the style it names; quiet: of none. */
+#define WF_CMD_PROGRESS(group)                                                                 \
+    {                                                                                          \
+        "progress", WF_CMD_PROGRESS_STYLES, "tty on a terminal, else none",                    \
+            "How to show progress, on standard error.", group                                  \
+    }
+#define WF_CMD_PROGRESS_STYLES "tty|plain|alf|json|none"
+weft_status wf_cmd_meter(wf_meter *meter, const char *style, bool quiet, weft_error *err);
+
+void wf_cmd_help(const wf_cmd *cmd);
+
+/* Prints what wf_json_finish returned, and frees it. */
+weft_status wf_cmd_print_json(char *text, weft_error *err);
+
+/* Has an entry point of the plot module (convert/plot.h) draw into a PNG file, which replaces
+ * one that is there. */
+weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
+                        weft_error *err);
+
+/* "weft: " and a message on standard error, colored on a terminal unless NO_COLOR is set. */
+void wf_cmd_say(const char *kind, const char *text);
+
+/* A signal that asks the program to stop cancels the job, which is given 1.7 s for it. After
+ * the job, before it is freed, signals are ignored. */
+void wf_cmd_catch_signals(weft_job *job);
+void wf_cmd_ignore_signals(void);
+
+/* Which signal asked the program to stop; 0: none. */
+int wf_cmd_signal(void);
+
+#endif

@@ -1,0 +1,176 @@
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "convert/base/fail.h"
+#include "convert/program/cmd.h"
+#include "convert/run/broadcast.h"
+
+typedef struct composite_state {
+    const char *output, *raster, *system, *encoder, *decoder, *progress;
+    bool quiet;
+    wf_meter meter;
+} composite_state;
+
+/* ---- Options ---- */
+
+/* In the order of their enumerations. */
+static const char systems[] = "ntsc|pal", encoders[] = "cheap|filtered",
+                  decoders[] = "notch|comb2|comb3";
+
+typedef struct settled {
+    wf_broadcast set;
+    wf_tv_system system;
+    wf_raster raster;
+} settled;
+
+static weft_status settle(composite_state *state, settled *s, weft_error *err) {
+    int system = -1, encoder = WF_ENCODER_CHEAP, decoder = WF_DECODER_NOTCH;
+    char why[512];
+    weft_status status = wf_cmd_choose("system", systems, state->system, &system, err);
+    if (!status) status = wf_cmd_choose("encoder", encoders, state->encoder, &encoder, err);
+    if (!status) status = wf_cmd_choose("decoder", decoders, state->decoder, &decoder, err);
+    if (status) return status;
+    if (state->raster && !wf_raster_parse(state->raster, &s->raster, why, sizeof why))
+        return wf_fail(err, WEFT_USAGE, "--raster: %s", why);
+    status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
+    if (status) return status;
+    s->system = (wf_tv_system)(system < 0 ? 0 : system);
+    s->set = (wf_broadcast){.raster = state->raster ? &s->raster : NULL,
+                            .system = system < 0 ? NULL : &s->system,
+                            .encoder = (wf_tv_encoder)encoder,
+                            .decoder = (wf_tv_decoder)decoder};
+    return WEFT_OK;
+}
+
+/* ---- Running ---- */
+
+static void on_warning(const char *text, void *user) {
+    composite_state *state = user;
+    if (state->quiet) return;
+    wf_meter_clear(&state->meter);
+    wf_cmd_say("warning: ", text);
+}
+
+/* The number of frames may not be known before the last. */
+static void on_progress(const weft_progress *progress, void *user) {
+    composite_state *state = user;
+    weft_progress shown = *progress;
+    shown.stage = "composite";
+    if (shown.frames_total < shown.frames_done) shown.frames_total = shown.frames_done;
+    wf_meter_update(&shown, &state->meter);
+}
+
+static weft_status show(composite_state *state, const settled *s, weft_job *job,
+                        weft_error *err) {
+    weft_job_on_progress(job, on_progress, state);
+    weft_job_on_warning(job, on_warning, state);
+    wf_cmd_catch_signals(job);
+    weft_status status = wf_broadcast_run(job, &s->set, err);
+    wf_cmd_ignore_signals();
+    wf_meter_clear(&state->meter);
+    if (status || state->quiet || !state->meter.show || state->progress) return status;
+    char text[128];
+    const weft_progress *last = &state->meter.last;
+    snprintf(text, sizeof text, "%" PRId64 " frames in %.2f s", last->frames_done,
+             last->seconds);
+    wf_cmd_say("", text);
+    return WEFT_OK;
+}
+
+static weft_status read_arguments(const wf_cmd *cmd, int argc, char **argv,
+                                  composite_state *state, weft_job *job, weft_error *err) {
+    int inputs = 0;
+    weft_status status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
+    if (status) return status;
+    if (!inputs)
+        return wf_fail(err, WEFT_USAGE,
+                       "nothing to show; give video, such as shot.y4m or out.####.dpx");
+    if (inputs > 1)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "one input at a time, and '%.200s' is a second; a sequence is one when it "
+            "is given as a pattern, in quotes: 'shot.####.dpx'",
+            argv[1]);
+    status = weft_job_add_input(job, argv[0], err);
+    return !status && state->output ? weft_job_set_output(job, state->output, err) : status;
+}
+
+static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    composite_state state = {0};
+    settled s = {0};
+    weft_job *job = weft_job_new();
+    if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    weft_status status = read_arguments(cmd, argc, argv, &state, job, err);
+    if (!status) status = settle(&state, &s, err);
+    if (!status) status = show(&state, &s, job, err);
+    weft_job_free(job);
+    return status;
+}
+
+/* ---- What it says of itself ---- */
+
+static const char coding[] = "Composite", writing[] = "Output and messages";
+
+static const wf_cmd_option options[] = {
+    {{"system", systems, "the raster's: 525 lines ntsc, 625 pal", "The color system.", coding},
+     .offset = offsetof(composite_state, system)},
+    {{"encoder", encoders, "cheap",
+      "cheap adds the color to luma as it is, as typical recorders do; filtered first takes "
+      "the luma around the subcarrier out.",
+      coding},
+     .offset = offsetof(composite_state, encoder)},
+    {{"decoder", decoders, "notch",
+      "notch takes all around the subcarrier for color; comb2 and comb3 only what alternates "
+      "with it between a line and one or two others of its field.",
+      coding},
+     .offset = offsetof(composite_state, decoder)},
+    {{"raster", "NAME", "as the file says", "What raster the input is in.", coding},
+     .offset = offsetof(composite_state, raster)},
+    {{"output", "OUTPUT", NULL,
+      "Where to write: .y4m, .v210, .uyvy, or a sequence such as out.####.png (tif, dpx); - is "
+      "Y4M on standard output.",
+      writing},
+     .letter = 'o',
+     .offset = offsetof(composite_state, output)},
+    {WF_CMD_PROGRESS(writing), .offset = offsetof(composite_state, progress)},
+    {{"quiet", NULL, NULL, "Say nothing but errors.", writing},
+     .letter = 'q',
+     .offset = offsetof(composite_state, quiet)},
+};
+
+static const char *const job_options[] = {"bits",     "range",      "chroma",    "legalize",
+                                          "timecode", "max-memory", "overwrite", NULL};
+
+const wf_cmd wf_cmd_composite = {
+    .name = "composite",
+    .operands = "IN -o OUTPUT",
+    .summary = "what an NTSC or PAL television would show",
+    .text =
+        "Takes finished video through a composite coder and a television's decoder, as every\n"
+        "analogue broadcast and tape did. Fine luma near the color subcarrier comes back as\n"
+        "false color (cross-color), edges of color as crawling dots (cross-luma).\n"
+        "\n"
+        "IN is Y4M, .v210, .uyvy, a picture, a sequence in quotes, or - for Y4M on standard\n"
+        "input. A cheap recorder and an old set:\n"
+        "\n"
+        "  weft composite shot.y4m -o seen.y4m\n"
+        "\n"
+        "A careful studio and a good set:\n"
+        "\n"
+        "  weft composite shot.y4m --encoder filtered --decoder comb3 -o seen.y4m\n"
+        "\n"
+        "To look at it at once:\n"
+        "\n"
+        "  weft render carousel.lua -o - | weft composite - -o - | mpv -\n",
+    .notes =
+        "Composite video has 525 or 625 lines: rasters 525i, 525i-imx, 525i-dv, 525i-rp202,\n"
+        "625i and 625i-dv. The subcarrier runs through all lines of the signal, frame 0 being\n"
+        "color frame A (NTSC) or fields 1 and 2 of eight (PAL), so that false colors shimmer "
+        "as\n"
+        "they do on a set. U and V are 1.5 dB down at 1.3 MHz, and done at 2.4 MHz.\n",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .job_options = job_options,
+    .run = run,
+};

@@ -1,0 +1,120 @@
+/* What 'weft filters' says of designed apertures: their certificate. */
+#include <math.h>
+#include <stdio.h>
+
+#include "convert/program/cmd_filters.h"
+#include "filters/aperture/flicker.h"
+
+double wf_filters_sharpness(const wf_aperture *a) {
+    return wf_response(a, 0, 0, WF_FILTERS_SHARP_AT, 0);
+}
+
+bool wf_filters_design(wf_filters_query *query, char *why, size_t why_size) {
+    const char *wish = wf_aperture_wish(query->aperture.kind, query->name);
+    query->designed = wish;
+    return !wish || (wf_design_parse(wish, &query->wish, why, why_size) &&
+                     wf_design_solve(&query->wish, &query->design, why, why_size));
+}
+
+/* ---- For people ---- */
+
+static void print_wish(const wf_design_wish *w) {
+    printf("\nDesigned: %g lines to each side, %g px wide; overshoot at most %.4g %%, "
+           "aliases at most %g;\n",
+           w->support, w->width, 100 * w->overshoot, w->alias);
+    if (w->flicker > 0)
+        printf("flicker at most %g; the sharpest at %g cycles/line\n\n", w->flicker, w->at[0]);
+    for (int i = 0; i < w->sharps; i++)
+        printf("%sat least %g at %g cycles/line", i ? ", " : "", w->sharp[i], w->at[i]);
+    if (w->sharps) printf("; the least flicker\n\n");
+}
+
+static void print_row(const char *what, double value, const char *note) {
+    printf("%-48s %9.5f%s\n", what, fabs(value) < 5e-6 ? 0 : value, note);
+}
+
+/* What the duality gap proves is another thing for each kind of wish (filters/design.h). */
+static void print_proof(const wf_filters_query *q) {
+    const wf_design *d = &q->design;
+    double least = sqrt(fmax(d->flicker * d->flicker - d->gap - d->slack, 0));
+    double at = q->wish.at[0], most = wf_stairs_response(&d->stairs, at) + d->gap + d->slack;
+    printf("\nNothing within these limits ");
+    if (d->sharpest)
+        printf("that flickers no more responds by more than %.5f at %g cycles/line\n"
+               "(that flickers as much as was wished: %.5f)",
+               most, at, most + d->spare);
+    else if (!q->wish.sharps)
+        printf("that is as sharp at %g cycles/line flickers less than %.6f\n", at, least);
+    else
+        printf("flickers less than %.6f\n", least);
+    printf("%sand passes less than twice the noise:\nthe duality gap is %.1e of %s, after %d "
+           "iterations in %d quadratic program%s.\n",
+           d->sharpest ? " " : "", d->gap, d->sharpest ? "response" : "flicker squared",
+           d->iterations, d->programs, d->programs > 1 ? "s" : "");
+}
+
+void wf_filters_print_design(const wf_filters_query *q) {
+    const wf_design *d = &q->design;
+    print_wish(&q->wish);
+    print_row("response at 0.125 cycles/line", wf_stairs_response(&d->stairs, 0.125), "");
+    print_row("response at 0.25", wf_stairs_response(&d->stairs, 0.25), "");
+    for (int i = 0; i < q->wish.sharps || i == 0; i++) {
+        char what[64];
+        snprintf(what, sizeof what, "response at %g", q->wish.at[i]);
+        if (q->wish.at[i] != 0.25 && q->wish.at[i] != 0.125)
+            print_row(what, wf_stairs_response(&d->stairs, q->wish.at[i]), "");
+    }
+    print_row("least response beyond 0.25", d->least, "");
+    print_row("response at 0.5, either sign", d->zero, "");
+    print_row("largest response beyond 0.5, either sign", d->alias, "");
+    print_row("overshoot of a step", d->overshoot, "");
+    print_row("noise that passes, the line's being 1",
+              wf_stairs_power(&d->stairs) / q->wish.width, "");
+    print_row("flicker of the still zone plate, RMS", d->flicker, "");
+    print_proof(q);
+}
+
+/* ---- For programs ---- */
+
+static void add_wish(wf_json *json, const wf_design_wish *w) {
+    wf_json_open(json, "wish", '{');
+    wf_json_real(json, "support", w->support);
+    wf_json_real(json, "overshoot", w->overshoot);
+    wf_json_real(json, "alias", w->alias);
+    wf_json_real(json, "width", w->width);
+    wf_json_real(json, "flicker", w->flicker > 0 ? w->flicker : NAN);
+    wf_json_open(json, "sharp", '[');
+    for (int i = 0; i < w->sharps; i++) wf_json_real(json, NULL, w->sharp[i]);
+    wf_json_close(json);
+    wf_json_open(json, "at", '[');
+    for (int i = 0; i < w->sharps || i == 0; i++) wf_json_real(json, NULL, w->at[i]);
+    wf_json_close(json);
+    wf_json_close(json);
+}
+
+void wf_filters_add_design(wf_json *json, const wf_filters_query *q) {
+    const wf_design *d = &q->design;
+    wf_json_open(json, "design", '{');
+    add_wish(json, &q->wish);
+    wf_json_real(json, "flicker", d->flicker);
+    wf_json_real(json, "response_eighth", wf_stairs_response(&d->stairs, 0.125));
+    wf_json_real(json, "response_quarter", wf_stairs_response(&d->stairs, 0.25));
+    wf_json_open(json, "response_at", '[');
+    for (int i = 0; i < q->wish.sharps || i == 0; i++)
+        wf_json_real(json, NULL, wf_stairs_response(&d->stairs, q->wish.at[i]));
+    wf_json_close(json);
+    wf_json_real(json, "overshoot", d->overshoot);
+    wf_json_real(json, "least_beyond_quarter", d->least);
+    wf_json_real(json, "response_half", d->zero);
+    wf_json_real(json, "largest_beyond_half", d->alias);
+    wf_json_real(json, "noise", wf_stairs_power(&d->stairs) / q->wish.width);
+    wf_json_real(json, "gap", d->sharpest ? NAN : d->gap);
+    wf_json_real(json, "gap_response", d->sharpest ? d->gap : NAN);
+    wf_json_int(json, "iterations", d->iterations);
+    wf_json_int(json, "programs", d->programs);
+    wf_json_real(json, "step_lines", 1.0 / WF_STAIRS_STEPS);
+    wf_json_open(json, "kernel", '[');
+    for (int i = 0; i < d->stairs.count; i++) wf_json_real(json, NULL, d->stairs.height[i]);
+    wf_json_close(json);
+    wf_json_close(json);
+}

@@ -1,0 +1,211 @@
+/* How little flicker there is for a sharpness, and where the named apertures lie. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/plot/plot.h"
+#include "convert/program/cmd.h"
+#include "convert/program/cmd_filters.h"
+#include "filters/aperture/flicker.h"
+#include "filters/base/sinc.h"
+
+#define POINTS     49
+#define CURVES     4
+#define MOST_MARKS 32
+
+/* What a curve is the frontier of. */
+typedef struct curve_row {
+    double support, overshoot, width; /* lines to each side; pixels */
+} curve_row;
+
+typedef struct curve {
+    char name[96];
+    const curve_row *row;
+    size_t points;
+    double flicker[POINTS], sharpness[POINTS];
+} curve;
+
+typedef struct frontier {
+    curve curve[CURVES];
+    wf_xy_mark mark[MOST_MARKS];
+    size_t marks;
+} frontier;
+
+static const curve_row rows[CURVES] = {{4, 0, 1}, {4, 0.05, 1}, {4, 0.08, 1}, {4, 0.08, 1.6}};
+
+/* ---- Named apertures ---- */
+
+/* ffmpeg's interlace filter reads progressive lines, which are boxes one line high, and weighs
+ * them about every second one. */
+typedef struct fir {
+    const char *name;
+    double tap[3]; /* of the line itself and of those one and two lines away, to either side */
+} fir;
+
+static const fir peers[] = {{"ffmpeg linear", {0.5, 0.25, 0}},
+                            {"ffmpeg complex", {0.75, 0.25, -0.125}}};
+
+static double fir_response(const void *user, double fx, double fy) {
+    const fir *f = user;
+    double sum = f->tap[0];
+    for (int k = 1; k < 3; k++) sum += 2 * f->tap[k] * cos(2 * M_PI * fy * k);
+    return sum * wf_sinc(fx) * wf_sinc(fy);
+}
+
+/* Apertures that are alike share a dot. */
+static void add_mark(frontier *f, const char *name, double flicker, double sharpness,
+                     bool other) {
+    for (size_t m = 0; m < f->marks; m++) {
+        wf_xy_mark *mark = &f->mark[m];
+        if (fabs(mark->x - flicker) > 1e-6 || fabs(mark->y - sharpness) > 1e-6) continue;
+        size_t used = strlen(mark->name);
+        snprintf(mark->name + used, sizeof mark->name - used, ", %s", name);
+        return;
+    }
+    if (f->marks == MOST_MARKS) return;
+    wf_xy_mark *mark = &f->mark[f->marks++];
+    *mark = (wf_xy_mark){.x = flicker, .y = sharpness, .other = other};
+    snprintf(mark->name, sizeof mark->name, "%s", name);
+}
+
+static void add_marks(frontier *f) {
+    const wf_aperture_kind *kind;
+    for (size_t i = 0; (kind = wf_aperture_at(i)); i++) {
+        char name[64];
+        wf_aperture a = wf_filters_example(kind, name);
+        if (kind->follows && kind->profile == WF_PROFILE_DESIGN) continue;
+        add_mark(f, name, wf_aperture_flicker(&a), wf_filters_sharpness(&a), false);
+    }
+    for (size_t i = 0; i < sizeof peers / sizeof *peers; i++)
+        add_mark(f, peers[i].name, wf_flicker(fir_response, &peers[i]),
+                 fir_response(&peers[i], 0, WF_FILTERS_SHARP_AT), true);
+}
+
+/* ---- Curves ---- */
+
+static weft_status solve(const curve *c, double sharp, double flicker, wf_design *design,
+                         weft_error *err) {
+    const wf_design_wish wish = {.support = c->row->support,
+                                 .overshoot = c->row->overshoot,
+                                 .alias = WF_DESIGN_ALIAS,
+                                 .width = c->row->width,
+                                 .flicker = flicker,
+                                 .sharps = flicker > 0 ? 0 : 1,
+                                 .sharp = {sharp},
+                                 .at = {WF_FILTERS_SHARP_AT}};
+    char why[512];
+    if (wf_design_solve(&wish, design, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, design->no_memory ? WEFT_NO_MEMORY : WEFT_FAILED, "%s", why);
+}
+
+static double sharpness_of(const wf_design *design) {
+    return wf_stairs_response(&design->stairs, WF_FILTERS_SHARP_AT);
+}
+
+/* From a tenth of the response to the most that there is. */
+static weft_status trace(curve *c, weft_error *err) {
+    wf_design design;
+    weft_status status = solve(c, 0, 1, &design, err);
+    if (status) return status;
+    double most = sharpness_of(&design), least = 0.1;
+    c->points = POINTS;
+    c->flicker[POINTS - 1] = design.flicker;
+    c->sharpness[POINTS - 1] = most;
+    for (int i = 0; i < POINTS - 1; i++) {
+        status = solve(c, least + (most - least) * i / (POINTS - 1), 0, &design, err);
+        if (status) return status;
+        c->flicker[i] = design.flicker;
+        c->sharpness[i] = sharpness_of(&design);
+    }
+    return WEFT_OK;
+}
+
+static weft_status find(frontier *f, weft_error *err) {
+    for (size_t i = 0; i < CURVES; i++) {
+        curve *c = &f->curve[i];
+        c->row = &rows[i];
+        int used = snprintf(c->name, sizeof c->name, "least flicker, overshoot at most %g %%",
+                            100 * c->row->overshoot);
+        if (c->row->width > 1)
+            snprintf(c->name + used, sizeof c->name - (size_t)used, ", %g pixels wide",
+                     c->row->width);
+        weft_status status = trace(c, err);
+        if (status) return status;
+    }
+    add_marks(f);
+    return WEFT_OK;
+}
+
+/* ---- What it looks like ---- */
+
+static weft_status draw(const frontier *f, const char *path, weft_error *err) {
+    wf_xy_curve curves[CURVES];
+    for (size_t i = 0; i < CURVES; i++) {
+        const curve *c = &f->curve[i];
+        curves[i] =
+            (wf_xy_curve){c->name, c->flicker, c->sharpness, c->points, c->row->width > 1};
+    }
+    char subtitle[128];
+    snprintf(subtitle, sizeof subtitle,
+             "Still zone plate on 525i; designs of %g lines to each side, aliases at most %g",
+             rows[0].support, WF_DESIGN_ALIAS);
+    const wf_plot_xy plot = {
+        .title = "Flicker and sharpness",
+        .subtitle = subtitle,
+        .x_label = "Interline flicker, RMS (white = 1)",
+        .y_label = "Vertical response at 0.25 cycles/line",
+        .x_step = 0.02,
+        .y_step = 0.1,
+        .x_format = "%.2f",
+        .y_format = "%.1f",
+        .curve_count = CURVES,
+        .mark_count = f->marks,
+        .curves = curves,
+        .marks = f->mark,
+    };
+    return wf_cmd_draw("wf_plot_xy_png", &plot, path, err);
+}
+
+static void add_numbers(wf_json *json, const char *key, const double *value, size_t count) {
+    wf_json_open(json, key, '[');
+    for (size_t i = 0; i < count; i++) wf_json_real(json, NULL, value[i]);
+    wf_json_close(json);
+}
+
+static weft_status print(const frontier *f, weft_error *err) {
+    wf_json json = {0};
+    wf_json_open(&json, NULL, '{');
+    wf_json_real(&json, "sharp_at", WF_FILTERS_SHARP_AT);
+    wf_json_open(&json, "curves", '[');
+    for (size_t i = 0; i < CURVES; i++) {
+        const curve *c = &f->curve[i];
+        wf_json_open(&json, NULL, '{');
+        wf_json_real(&json, "support", c->row->support);
+        wf_json_real(&json, "overshoot", c->row->overshoot);
+        wf_json_real(&json, "width", c->row->width);
+        add_numbers(&json, "flicker", c->flicker, c->points);
+        add_numbers(&json, "sharpness", c->sharpness, c->points);
+        wf_json_close(&json);
+    }
+    wf_json_close(&json);
+    wf_json_open(&json, "points", '[');
+    for (size_t m = 0; m < f->marks; m++) {
+        wf_json_open(&json, NULL, '{');
+        wf_json_text(&json, "name", f->mark[m].name);
+        wf_json_real(&json, "flicker", f->mark[m].x);
+        wf_json_real(&json, "sharpness", f->mark[m].y);
+        wf_json_close(&json);
+    }
+    return wf_cmd_print_json(wf_json_finish(&json), err);
+}
+
+weft_status wf_filters_frontier(const char *path, bool json, weft_error *err) {
+    frontier *f = calloc(1, sizeof *f);
+    if (!f) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    weft_status status = find(f, err);
+    if (!status) status = draw(f, path, err);
+    if (!status && json) status = print(f, err);
+    free(f);
+    return status;
+}

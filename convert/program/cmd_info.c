@@ -1,0 +1,227 @@
+#include <inttypes.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "convert/base/fail.h"
+#include "convert/base/pattern.h"
+#include "convert/program/cmd.h"
+#include "convert/program/cmd_info.h"
+#include "convert/read/sequence.h"
+#include "convert/read/source.h"
+
+typedef struct info_state {
+    bool json;
+} info_state;
+
+/* ---- Facts ---- */
+
+void wf_fact_text(wf_facts *facts, const char *key, const char *value) {
+    if (facts->as_json) {
+        wf_json_text(&facts->json, key, value);
+        return;
+    }
+    printf("  ");
+    for (int column = 0; column < 18; column++) {
+        putchar(*key == '_' || !*key ? ' ' : *key);
+        key += *key != '\0';
+    }
+    puts(value);
+}
+
+void wf_fact_int(wf_facts *facts, const char *key, int64_t value) {
+    char text[24];
+    snprintf(text, sizeof text, "%" PRId64, value);
+    if (facts->as_json)
+        wf_json_int(&facts->json, key, value);
+    else
+        wf_fact_text(facts, key, text);
+}
+
+void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between) {
+    char text[48];
+    snprintf(text, sizeof text, "%" PRId64 "%c%" PRId64, value.num, between, value.den);
+    wf_fact_text(facts, key, text);
+}
+
+void wf_fact_real(wf_facts *facts, const char *key, double value) {
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", value);
+    if (facts->as_json)
+        wf_json_real(&facts->json, key, value);
+    else
+        wf_fact_text(facts, key, text);
+}
+
+/* ---- Pictures ---- */
+
+static void fact_window(wf_facts *facts, const char *key, wf_box box) {
+    char text[96];
+    snprintf(text, sizeof text, "%dx%d at %d,%d", box.x1 - box.x0, box.y1 - box.y0, box.x0,
+             box.y0);
+    if (!facts->as_json) {
+        wf_fact_text(facts, key, text);
+        return;
+    }
+    wf_json_open(&facts->json, key, '{');
+    wf_json_int(&facts->json, "x", box.x0);
+    wf_json_int(&facts->json, "y", box.y0);
+    wf_json_int(&facts->json, "width", box.x1 - box.x0);
+    wf_json_int(&facts->json, "height", box.y1 - box.y0);
+    wf_json_close(&facts->json);
+}
+
+static void tell_picture(wf_facts *facts, const wf_image_info *info) {
+    wf_fact_text(facts, "format", info->format);
+    wf_fact_int(facts, "width", info->display.x1 - info->display.x0);
+    wf_fact_int(facts, "height", info->display.y1 - info->display.y0);
+    fact_window(facts, "display_window", info->display);
+    fact_window(facts, "data_window", info->data);
+    wf_fact_real(facts, "pixel_aspect", info->pixel_aspect);
+    if (wf_ratio_given(info->rate)) wf_fact_ratio(facts, "rate", info->rate, '/');
+    if (wf_ratio_given(info->time_s)) wf_fact_ratio(facts, "time", info->time_s, '/');
+    if (*info->timecode) wf_fact_text(facts, "timecode", info->timecode);
+}
+
+static weft_status tell_file(const char *path, int part, wf_facts *facts, weft_error *err) {
+    const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
+                                       .max_memory_bytes = (size_t)2 << 30};
+    wf_subframe *subframe;
+    weft_status status = wf_subframe_open(path, part, &options, &subframe, err);
+    if (status) return status;
+    tell_picture(facts, wf_subframe_info(subframe));
+    wf_subframe_close(subframe);
+    return WEFT_OK;
+}
+
+/* ---- Sequences ---- */
+
+static void fact_number(wf_facts *facts, const char *key, wf_rational number) {
+    if (number.den == 1)
+        wf_fact_int(facts, key, number.num);
+    else
+        wf_fact_real(facts, key, wf_ratio_value(number));
+}
+
+static void list_missing(wf_facts *facts, const wf_sequence *sequence) {
+    wf_json_open(&facts->json, "missing", '[');
+    for (size_t k = 0; k < sequence->count; k++)
+        if (!sequence->refs[k].path) fact_number(facts, NULL, sequence->refs[k].number);
+    wf_json_close(&facts->json);
+}
+
+/* For people: how many, and the first few. */
+static void sum_up_missing(wf_facts *facts, const wf_sequence *sequence) {
+    char text[256];
+    int used = snprintf(text, sizeof text, "%zu", sequence->missing), shown = 0;
+    for (size_t k = 0; k < sequence->count && shown <= 8; k++) {
+        if (sequence->refs[k].path) continue;
+        const char *before = shown ? ", " : ": ";
+        used += shown == 8 ? snprintf(text + used, sizeof text - (size_t)used, "%s..", before)
+                           : snprintf(text + used, sizeof text - (size_t)used, "%s%.9g", before,
+                                      wf_ratio_value(sequence->refs[k].number));
+        shown++;
+    }
+    wf_fact_text(facts, "missing", text);
+}
+
+static weft_status tell_refs(wf_facts *facts, const wf_sequence *sequence, weft_error *err) {
+    size_t present = 0, last = sequence->count - 1;
+    wf_fact_text(facts, "kind", "sequence");
+    wf_fact_int(facts, "subframes", (int64_t)sequence->count);
+    fact_number(facts, "first", sequence->refs[0].number);
+    fact_number(facts, "last", sequence->refs[last].number);
+    (facts->as_json ? list_missing : sum_up_missing)(facts, sequence);
+    while (present < last && !sequence->refs[present].path) present++;
+    const wf_subframe_ref *ref = &sequence->refs[present];
+    return ref->path ? tell_file(ref->path, ref->part, facts, err) : WEFT_OK;
+}
+
+static weft_status tell_sequence(char *path, wf_facts *facts, weft_error *err) {
+    wf_sequence sequence = {0};
+    weft_status status = wf_sequence_expand(&path, 1, NULL, &sequence, err);
+    if (!status) status = tell_refs(facts, &sequence, err);
+    wf_sequence_free(&sequence);
+    return status;
+}
+
+/* ---- The command ---- */
+
+static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
+    struct stat about;
+    bool exists = !stat(path, &about), is_y4m = false;
+    if (exists ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
+        return tell_sequence(path, facts, err);
+    if (wf_info_is_video(path)) return wf_info_video(path, facts, err);
+    weft_status status = wf_info_y4m(path, facts, &is_y4m, err);
+    if (status || is_y4m) return status;
+    wf_fact_text(facts, "kind", "picture");
+    return tell_file(path, -1, facts, err);
+}
+
+static weft_status tell_as_member(char *path, wf_facts *facts, weft_error *err) {
+    wf_json_open(&facts->json, NULL, '{');
+    wf_json_text(&facts->json, "path", path);
+    weft_status status = tell(path, facts, err);
+    if (status) wf_json_text(&facts->json, "error", err->text);
+    wf_json_close(&facts->json);
+    return status;
+}
+
+static weft_status tell_as_lines(char *path, wf_facts *facts, weft_error *err) {
+    puts(path);
+    return tell(path, facts, err);
+}
+
+/* The trouble with one file does not keep the others from being told. */
+static weft_status tell_all(int count, char **paths, wf_facts *facts) {
+    weft_status worst = WEFT_OK;
+    for (int i = 0; i < count; i++) {
+        weft_error trouble = {""};
+        weft_status status =
+            (facts->as_json ? tell_as_member : tell_as_lines)(paths[i], facts, &trouble);
+        if (!status) continue;
+        fflush(stdout);
+        wf_cmd_say("", trouble.text);
+        worst = status;
+    }
+    return worst;
+}
+
+static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    info_state state = {0};
+    int count = 0;
+    weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &count, err);
+    if (status) return status;
+    if (!count)
+        return wf_fail(err, WEFT_USAGE,
+                       "nothing to tell about; give a file, a pattern such as "
+                       "shot.####.exr, or a directory");
+    wf_facts facts = {.as_json = state.json};
+    if (!facts.as_json) return tell_all(count, argv, &facts);
+    wf_json_open(&facts.json, NULL, '{');
+    wf_json_open(&facts.json, "files", '[');
+    status = tell_all(count, argv, &facts);
+    weft_status printed = wf_cmd_print_json(wf_json_finish(&facts.json), err);
+    return status ? status : printed;
+}
+
+static const wf_cmd_option options[] = {
+    {{"json", NULL, NULL, "Print JSON.", "Options"}, .offset = offsetof(info_state, json)},
+};
+
+static const char *const no_job_options[] = {NULL};
+
+const wf_cmd wf_cmd_info = {
+    .name = "info",
+    .operands = "FILE...",
+    .summary = "what a file or a sequence is",
+    .text = "Tells what inputs and outputs say of themselves: pictures, sequences (with the "
+            "numbers\n"
+            "that are missing), Y4M, and video that libav reads (.mov, .mxf, .mkv ..).\n"
+            "\n"
+            "  weft info shot.####.exr out.y4m\n",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .job_options = no_job_options,
+    .run = run,
+};

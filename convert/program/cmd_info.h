@@ -1,0 +1,28 @@
+#ifndef WF_CONVERT_PROGRAM_CMD_INFO_H
+#define WF_CONVERT_PROGRAM_CMD_INFO_H
+
+#include "convert/base/json.h"
+#include "convert/weft.h"
+#include "filters/base/rational.h"
+
+/* What 'weft info' finds out, told one fact at a time: a line "key value" each on standard
+ * output, or a member of a JSON object. Keys are JSON's; lines show '_' as a blank. */
+typedef struct wf_facts {
+    bool as_json;
+    wf_json json;
+} wf_facts;
+
+void wf_fact_text(wf_facts *facts, const char *key, const char *value);
+void wf_fact_int(wf_facts *facts, const char *key, int64_t value);
+void wf_fact_real(wf_facts *facts, const char *key, double value);
+void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between);
+
+/* Tells the header of a YUV4MPEG2 file. *is_y4m is false, and nothing told, if it is not one.
+ */
+weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err);
+
+/* Video in containers: whether a name says so, and what it is. Its first frame is decoded. */
+bool wf_info_is_video(const char *path);
+weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err);
+
+#endif

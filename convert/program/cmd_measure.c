@@ -1,0 +1,282 @@
+#include "convert/program/cmd_measure.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "convert/base/fail.h"
+#include "convert/base/values.h"
+#include "convert/plot/plot.h"
+#include "convert/program/cmd.h"
+
+#define MOST_LIMITS 32
+
+typedef struct measure_state {
+    const char *against, *chart, *display, *heatmap, *raster_name, *progress, *max_memory;
+    wf_meter meter;
+    wf_cmd_list limits;
+    bool json;
+    wf_raster raster;
+    wf_limit limit[MOST_LIMITS];
+    size_t limit_count;
+    wf_measure_options options;
+} measure_state;
+
+/* ---- What is asked ---- */
+
+static weft_status read_chart(const char *text, wf_measure_options *o, weft_error *err) {
+    static const char grating[] = "grating:";
+    char *end;
+    if (!text) return WEFT_OK;
+    o->chart = WF_CHART_ZONEPLATE;
+    if (!strcmp(text, "zoneplate")) return WEFT_OK;
+    o->chart = WF_CHART_GRATING;
+    if (!strncmp(text, grating, sizeof grating - 1)) {
+        o->grating = strtod(text + sizeof grating - 1, &end);
+        if (!*end && o->grating > 0 && o->grating <= 0.5) return WEFT_OK;
+    }
+    return wf_fail(
+        err, WEFT_USAGE,
+        "--chart: '%.200s' will not do; it takes zoneplate, or grating:FY with FY in "
+        "cycles a frame line, above 0 and up to 0.5",
+        text);
+}
+
+static weft_status read_display(const char *text, wf_measure_options *o, weft_error *err) {
+    int display = WF_DISPLAY_BOB;
+    weft_status status = wf_cmd_choose("display", "bob|crt", text, &display, err);
+    o->display = (wf_display_kind)display;
+    return status;
+}
+
+/* Each --limit, and each of several with commas between them. */
+static weft_status read_limits(measure_state *s, weft_error *err) {
+    weft_status status = WEFT_OK;
+    for (size_t i = 0; i < s->limits.count && !status; i++) {
+        char *rest = s->limits.value[i];
+        for (char *word; !status && (word = strsep(&rest, ","));) {
+            if (s->limit_count == MOST_LIMITS)
+                return wf_fail(err, WEFT_USAGE, "--limit: more than %d of them", MOST_LIMITS);
+            status = wf_limit_parse(word, &s->limit[s->limit_count++], err);
+        }
+    }
+    return status;
+}
+
+static weft_status read_raster(measure_state *s, weft_error *err) {
+    char why[512];
+    if (!s->raster_name) return WEFT_OK;
+    s->options.raster = &s->raster;
+    if (wf_raster_parse(s->raster_name, &s->raster, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%s", why);
+}
+
+static bool same_file(const char *a, const char *b) {
+    struct stat x, y;
+    return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+/* Names that would be two things at once. */
+static weft_status check_names(const measure_state *s, int files, char **paths,
+                               weft_error *err) {
+    if (files > 1 && s->heatmap)
+        return wf_fail(err, WEFT_USAGE, "--heatmap draws one file, and %d are given", files);
+    int streams = s->against && !strcmp(s->against, "-");
+    for (int i = 0; i < files; i++) streams += !strcmp(paths[i], "-");
+    if (streams > 1)
+        return wf_fail(err, WEFT_USAGE,
+                       "standard input can be read once, and - is given twice");
+    bool own = s->heatmap && (same_file(s->heatmap, paths[0]) ||
+                              (s->against && same_file(s->heatmap, s->against)));
+    if (!own) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--heatmap %.300s would replace what is measured; give it another name",
+                   s->heatmap);
+}
+
+static weft_status read_memory(measure_state *s, weft_error *err) {
+    if (!s->max_memory || wf_parse_size(s->max_memory, &s->options.max_memory_bytes))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--max-memory: '%.200s' will not do; it takes a size, such as 512M or 4G",
+                   s->max_memory);
+}
+
+static weft_status read_state(measure_state *s, int files, char **paths, weft_error *err) {
+    s->options = (wf_measure_options){.against = s->against,
+                                      .want_heat = s->heatmap,
+                                      .max_memory_bytes = (size_t)2 << 30,
+                                      .progress = wf_meter_update,
+                                      .progress_user = &s->meter};
+    if (!files)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "nothing to measure; give a video, a pattern such as frame.####.exr, or - "
+            "for Y4M on standard input");
+    weft_status status = wf_cmd_meter(&s->meter, s->progress, false, err);
+    if (!status) status = check_names(s, files, paths, err);
+    if (!status) status = read_memory(s, err);
+    if (!status) status = read_chart(s->chart, &s->options, err);
+    if (!status) status = read_display(s->display, &s->options, err);
+    if (!status) status = read_raster(s, err);
+    return status ? status : read_limits(s, err);
+}
+
+/* ---- The heat map ---- */
+
+/* The strongest color is a round number a little above the 99.9th percentile. */
+static double round_up(double value) {
+    static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        if (value <= steps[i]) return steps[i];
+    return 1;
+}
+
+static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_error *err) {
+    char subtitle[128];
+    snprintf(subtitle, sizeof subtitle,
+             "RMS %.4f, 99.9th percentile %.3f of white; over 2 %%: %.2g %%", f->flicker_rms,
+             f->flicker_p999, 100 * f->flicker_share);
+    const wf_plot_map map = {.title = "Interline flicker",
+                             .subtitle = subtitle,
+                             .value = f->heat,
+                             .width_px = f->info.width_px,
+                             .lines = f->info.lines,
+                             .pixel_aspect = wf_ratio_value(f->info.raster.pixel_aspect),
+                             .high = round_up(f->flicker_p999)};
+    return wf_cmd_draw("wf_plot_heat", &map, s->heatmap, err);
+}
+
+/* ---- Measuring ---- */
+
+/* Every limit that is exceeded is said. */
+static weft_status check_limits(const measure_state *s, const char *path, const wf_figures *f) {
+    weft_status worst = WEFT_OK;
+    for (size_t i = 0; i < s->limit_count; i++) {
+        weft_error exceeded = {""};
+        weft_status status = wf_limit_check(&s->limit[i], path, f, &exceeded);
+        if (!status) continue;
+        fflush(stdout);
+        wf_cmd_say("", exceeded.text);
+        worst = status;
+    }
+    return worst;
+}
+
+/* The trouble with one file does not keep the others from being measured. */
+static weft_status measure_one(measure_state *s, const char *path, wf_json *json) {
+    wf_figures figures;
+    weft_error trouble = {""};
+    weft_status status = wf_measure(path, &s->options, &figures, &trouble);
+    wf_meter_clear(&s->meter);
+    if (!status && s->heatmap) status = draw_heat(s, &figures, &trouble);
+    if (json)
+        wf_measure_json(json, path, &figures, status ? trouble.text : NULL);
+    else if (!status)
+        wf_measure_print(path, &s->options, &figures);
+    free(figures.heat);
+    if (!status) return check_limits(s, path, &figures);
+    fflush(stdout);
+    wf_cmd_say("", trouble.text);
+    return status;
+}
+
+static weft_status measure_all(measure_state *s, int count, char **paths, weft_error *err) {
+    wf_json json = {0};
+    weft_status worst = WEFT_OK;
+    if (s->json && count > 1) wf_json_open(&json, NULL, '[');
+    for (int i = 0; i < count; i++) {
+        weft_status status = measure_one(s, paths[i], s->json ? &json : NULL);
+        if (status > worst) worst = status;
+    }
+    weft_status printed = s->json ? wf_cmd_print_json(wf_json_finish(&json), err) : WEFT_OK;
+    return worst ? worst : printed;
+}
+
+static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    measure_state state = {0};
+    int count = 0;
+    weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &count, err);
+    if (!status) status = read_state(&state, count, argv, err);
+    return status ? status : measure_all(&state, count, argv, err);
+}
+
+static const char group[] = "Options";
+
+#define STATE(member) offsetof(measure_state, member)
+
+static const wf_cmd_option options[] = {
+    {{"raster", "NAME", NULL,
+      "What the video is, where it does not say so (raw v210 and uyvy) or says it wrong.",
+      group},
+     .offset = STATE(raster_name)},
+    {{"chart", "zoneplate|grating:FY", NULL,
+      "What is known to be on the picture: with it, the vertical response at 0.25 (FY) cycles "
+      "a "
+      "line is measured.",
+      group},
+     .offset = STATE(chart)},
+    {{"display", "bob|crt", "bob",
+      "What shows the fields: bob stretches each over the frame, crt draws it on its own lines "
+      "while the other fades.",
+      group},
+     .offset = STATE(display)},
+    {{"against", "REF", NULL, "Also the differences from this video, by plane and field.",
+      group},
+     .offset = STATE(against)},
+    {{"limit", "KEY=V", NULL,
+      "Exit with 1 if a figure exceeds V (sharpness, psnr and ssim: falls short of it; "
+      "order.verdict: is another). May be repeated, or given several with commas.",
+      group},
+     .offset = STATE(limits),
+     .repeats = true},
+    {{"heatmap", "FILE", NULL, "Draw where it flickers into a PNG file.", group},
+     .offset = STATE(heatmap)},
+    {WF_CMD_PROGRESS(group), .offset = STATE(progress)},
+    {{"max-memory", "SIZE", "2G", "How much memory the frames in hand may take.", group},
+     .offset = STATE(max_memory)},
+    {{"json", NULL, NULL, "Print JSON: an object, an array of several files.", group},
+     .offset = STATE(json)},
+};
+
+static const char *const no_job_options[] = {NULL};
+
+const wf_cmd wf_cmd_measure = {
+    .name = "measure",
+    .operands = "FILE...",
+    .summary = "flicker, cross-color, field order, legality, differences",
+    .text =
+        "Measures what interlace does to video: Y4M, raw v210 and uyvy, sequences of pictures\n"
+        "(frame.####.dpx), linear EXR, and whatever else libav reads.\n"
+        "\n"
+        "  weft measure shot.y4m\n"
+        "  weft measure shot.mov --limit flicker.rms=0.05 --limit order.verdict=tff\n"
+        "  weft measure plate.####.exr --chart zoneplate --heatmap flicker.png\n"
+        "  weft measure coded.mov --against shot.y4m --json\n",
+    .notes =
+        "Figures, light being that of the raster's display and white 1:\n"
+        "  flicker.rms .p999 .share  half the difference of a frame's two fields, each shown "
+        "as\n"
+        "                            the display does, where the content stands still\n"
+        "  sharpness                 vertical response, of charts\n"
+        "  cross_color.rms .p999     color that cheap composite coding makes of luma\n"
+        "  cross_luma.rms .p999      luma that it makes of color (525 and 625 lines only)\n"
+        "  order.verdict .ratio      tff, bff, progressive, psf, telecined or still, from "
+        "pixels\n"
+        "  legal.range_share         share of the picture outside narrow range,\n"
+        "  legal.r103_share          and outside EBU R103\n"
+        "  difference.rmse .psnr .ssim  from --against, of the largest code\n"
+        "Content stands still where fields of one parity agree within 1 % from frame to frame; "
+        "a\n"
+        "single frame is taken for a still. Shares are from 0 to 1 in JSON and as limits. "
+        "Order\n"
+        "needs two frames, telecined six; a ratio beyond 0.8 .. 1.25 is clear, nearer to 1 it "
+        "is\n"
+        "told only if every pair of frames leans that way. Raw video is 525i without "
+        "--raster.\n",
+    .options = options,
+    .option_count = sizeof options / sizeof *options,
+    .job_options = no_job_options,
+    .run = run,
+};

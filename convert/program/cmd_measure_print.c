@@ -1,0 +1,164 @@
+/* What 'weft measure' prints: for people, and JSON. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "convert/program/cmd_measure.h"
+#include "convert/read/television.h"
+
+/* ---- For people ---- */
+
+static void print_number(const char *label, double value, const char *unit) {
+    if (isnan(value))
+        printf("  %s -", label);
+    else
+        printf("  %s %.4g%s", label, value, unit);
+}
+
+static void print_percent(const char *label, double share) {
+    print_number(label, 100 * share, " %");
+}
+
+static void print_row(const char *name) {
+    printf("  %-22s", name);
+}
+
+static void print_flicker(const wf_measure_options *options, const wf_figures *f) {
+    print_row(options->display == WF_DISPLAY_CRT ? "interline flicker, crt"
+                                                 : "interline flicker");
+    print_number("rms", f->flicker_rms, "");
+    print_number("p999", f->flicker_p999, "");
+    print_percent("over 2 %:", f->flicker_share);
+    if (isnan(f->flicker_rms)) printf("  (nothing is still in it)");
+    putchar('\n');
+    if (isnan(f->sharpness)) return;
+    print_row("vertical sharpness");
+    print_number("response", f->sharpness, "");
+    putchar('\n');
+}
+
+static void print_composite(const wf_figures *f) {
+    wf_tv tv = {.width_px = 0};
+    if (!wf_television_of(&f->info.raster, &tv)) return;
+    print_row("cross-color");
+    print_number("rms", f->cross_color_rms, "");
+    print_number("p999", f->cross_color_p999, "");
+    printf("  (%s, cheap encoder, notch decoder)\n", tv.system == WF_NTSC ? "NTSC" : "PAL");
+    print_row("cross-luma");
+    print_number("rms", f->cross_luma_rms, "");
+    print_number("p999", f->cross_luma_p999, "");
+    putchar('\n');
+}
+
+static void print_order(const wf_figures *f) {
+    static const struct {
+        const char *verdict, *words;
+    } rows[] = {{"tff", "top field first"},
+                {"bff", "bottom field first"},
+                {"progressive", "progressive"},
+                {"psf", "segmented frames: both fields show one instant"},
+                {"telecined", "telecined: fields repeat in 2:3"},
+                {"still", "still: nothing moves"}};
+    print_row("field order");
+    for (size_t i = 0; f->order_verdict && i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(rows[i].verdict, f->order_verdict)) printf("  %s", rows[i].words);
+    if (!f->order_verdict) printf("  - (a single frame, or a few lines, have none)");
+    if (!isnan(f->order_ratio))
+        printf("  (bottom first varies %.3g times as much)", f->order_ratio);
+    putchar('\n');
+}
+
+static void print_difference(const wf_figures *f) {
+    static const char *const lines[] = {"frame", "top field", "bottom field"};
+    if (isnan(f->rmse)) return;
+    print_row("difference");
+    print_number("rmse", f->rmse, "");
+    print_number("psnr", f->psnr, " dB");
+    print_number("ssim", f->ssim, "");
+    putchar('\n');
+    for (int p = 0; p < 3 && f->plane_name[p]; p++)
+        for (int which = 0; which < 3; which++) {
+            const wf_plane_difference *d = &f->plane[p][which];
+            printf("    %-2s %-17s  rmse %-10.4g  psnr %-7.4g dB  ssim %.6f\n",
+                   f->plane_name[p], lines[which], d->rmse, d->psnr, d->ssim);
+        }
+}
+
+void wf_measure_print(const char *path, const wf_measure_options *options,
+                      const wf_figures *f) {
+    printf("%s\n", path);
+    print_row("what it is");
+    printf("  %" PRId64 " frame%s of %dx%d, %s, taken for %s (%s)\n", f->frames,
+           f->frames == 1 ? "" : "s", f->info.width_px, f->info.lines, f->info.format,
+           f->info.raster.name,
+           f->info.scan_known ? wf_raster_order(&f->info.raster)
+                              : "it does not say how scanned");
+    print_flicker(options, f);
+    print_composite(f);
+    print_order(f);
+    print_row("outside");
+    print_percent("narrow range", f->range_share);
+    print_percent("R103", f->r103_share);
+    putchar('\n');
+    print_difference(f);
+}
+
+/* ---- For programs ---- */
+
+/* Members of one group follow each other in the table. */
+static void add_figures(wf_json *json, const wf_figures *f) {
+    const wf_figure_kind *kind;
+    const char *group = NULL;
+    for (size_t i = 0; (kind = wf_figure_at(i)); i++) {
+        bool continues = group && !strcmp(group, kind->group);
+        if (group && !continues) wf_json_close(json);
+        if (!continues) group = NULL;
+        if (!kind->key) {
+            wf_json_real(json, kind->group, wf_figure_value(f, kind));
+            continue;
+        }
+        if (!continues) wf_json_open(json, group = kind->group, '{');
+        if (!strcmp(group, "order") && !continues)
+            wf_json_text(json, "verdict", f->order_verdict);
+        wf_json_real(json, kind->key, wf_figure_value(f, kind));
+    }
+    if (group) wf_json_close(json);
+}
+
+static void add_plane(wf_json *json, const char *key, const wf_plane_difference *d) {
+    wf_json_open(json, key, '{');
+    wf_json_real(json, "rmse", d->rmse);
+    wf_json_real(json, "psnr", d->psnr);
+    wf_json_real(json, "ssim", d->ssim);
+    wf_json_close(json);
+}
+
+static void add_planes(wf_json *json, const wf_figures *f) {
+    if (!f->plane_name[0]) return;
+    wf_json_open(json, "planes", '{');
+    for (int p = 0; p < 3 && f->plane_name[p]; p++) {
+        wf_json_open(json, f->plane_name[p], '{');
+        add_plane(json, "frame", &f->plane[p][0]);
+        add_plane(json, "top", &f->plane[p][1]);
+        add_plane(json, "bottom", &f->plane[p][2]);
+        wf_json_close(json);
+    }
+    wf_json_close(json);
+}
+
+void wf_measure_json(wf_json *json, const char *path, const wf_figures *f, const char *error) {
+    wf_json_open(json, NULL, '{');
+    wf_json_text(json, "path", path);
+    if (error) {
+        wf_json_text(json, "error", error);
+        wf_json_close(json);
+        return;
+    }
+    wf_json_text(json, "format", f->info.format);
+    wf_json_text(json, "raster", f->info.raster.name);
+    wf_json_int(json, "frames", f->frames);
+    add_figures(json, f);
+    add_planes(json, f);
+    wf_json_close(json);
+}

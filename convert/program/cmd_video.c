@@ -1,0 +1,37 @@
+/* Video in containers for 'weft info', as the libav module reads it. */
+#include <string.h>
+#include <strings.h>
+
+#include "convert/program/cmd_info.h"
+#include "convert/read/video.h"
+
+bool wf_info_is_video(const char *path) {
+    static const char *const endings[] = {".mov", ".mxf", ".mkv", ".mp4", ".avi", ".dv"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+        if (!strcasecmp(dot, endings[i])) return true;
+    return false;
+}
+
+static void tell_video(const wf_video_info *info, wf_facts *facts) {
+    const wf_raster *r = &info->raster;
+    wf_fact_text(facts, "kind", "video");
+    wf_fact_text(facts, "format", info->format);
+    wf_fact_int(facts, "width", info->width_px);
+    wf_fact_int(facts, "height", info->lines);
+    wf_fact_ratio(facts, "frame_rate", r->frame_rate, '/');
+    wf_fact_text(facts, "order", info->scan_known ? wf_raster_order(r) : "not said");
+    wf_fact_ratio(facts, "pixel_aspect", r->pixel_aspect, ':');
+    wf_fact_text(facts, "raster", r->name);
+    if (info->frames >= 0) wf_fact_int(facts, "frames", info->frames);
+}
+
+weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err) {
+    const wf_video_options options = {.max_memory_bytes = (size_t)2 << 30};
+    wf_video *video = NULL;
+    weft_status status = wf_video_open(path, &options, &video, err);
+    if (status) return status;
+    tell_video(wf_video_info_of(video), facts);
+    wf_video_close(video);
+    return WEFT_OK;
+}

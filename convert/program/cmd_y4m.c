@@ -1,0 +1,45 @@
+/* Y4M headers for 'weft info'. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "convert/base/fail.h"
+#include "convert/media/y4m.h"
+#include "convert/program/cmd_info.h"
+
+static void tell_header(const wf_y4m *h, int64_t frames, wf_facts *facts) {
+    wf_fact_text(facts, "kind", "video");
+    wf_fact_text(facts, "format", WF_Y4M_MAGIC);
+    wf_fact_int(facts, "width", h->width_px);
+    wf_fact_int(facts, "height", h->lines);
+    wf_fact_ratio(facts, "frame_rate", h->rate, '/');
+    wf_fact_text(facts, "order", wf_y4m_order(h));
+    if (wf_ratio_given(h->aspect) && h->aspect.num)
+        wf_fact_ratio(facts, "pixel_aspect", h->aspect, ':');
+    wf_fact_text(facts, "chroma", h->chroma);
+    if (frames >= 0) wf_fact_int(facts, "frames", frames);
+}
+
+weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err) {
+    char line[WF_Y4M_LINE];
+    wf_y4m h;
+    FILE *file = fopen(path, "rb");
+    if (!file) return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
+    size_t got = fread(line, 1, sizeof line - 1, file);
+    line[got] = '\0';
+    char *end = memchr(line, '\n', got);
+    *is_y4m = !strncmp(line, WF_Y4M_MAGIC " ", sizeof WF_Y4M_MAGIC);
+    if (end) *end = '\0';
+    weft_status status = WEFT_OK;
+    if (*is_y4m && end && wf_y4m_parse(line, &h)) {
+        tell_header(&h, wf_y4m_count(&h, file, end - line + 1), facts);
+    } else if (*is_y4m) {
+        status = wf_fail(
+            err, WEFT_FAILED,
+            "%s: the Y4M header is not whole; it has W, H and F within its first line", path);
+    } else if (ferror(file)) {
+        status = wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
+    }
+    fclose(file);
+    return status;
+}

@@ -1,0 +1,327 @@
+#include <inttypes.h>
+#include <libdeflate.h>
+#include <math.h>
+#include <openexr.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/media/deep.h"
+#include "convert/read/reader.h"
+#include "convert/read/unzip.h"
+#include "filters/base/half.h"
+
+/* One pixel's samples beyond these are no renderer's. */
+#define MOST_IN_PIXEL (1 << 20)
+
+typedef struct stored {
+    int what; /* wf_deep_channel; -1: not ours */
+    exr_pixel_type_t type;
+} stored;
+
+#define MOST_STORED 32
+
+struct wf_deep_file {
+    char *path;
+    exr_context_t exr;
+    exr_compression_t compression;
+    int width, lines, y0, y1; /* of the raster; of the file's lines */
+    stored channel[MOST_STORED];
+    int count;
+    size_t sample_bytes;
+    bool has[WF_DEEP_CHANNELS];
+    const char *raster, *space;
+};
+
+static const struct {
+    const char *name;
+    bool needed;
+} names[] = {
+    [WF_DEEP_B] = {"B", true},        [WF_DEEP_G] = {"G", true},
+    [WF_DEEP_R] = {"R", true},        [WF_DEEP_T] = {"sample.t", true},
+    [WF_DEEP_X] = {"sample.x", true}, [WF_DEEP_Y] = {"sample.y", true},
+    [WF_DEEP_A] = {"A", false},       [WF_DEEP_WEIGHT] = {"sample.w", false},
+};
+
+static void say_nothing(exr_const_context_t exr, exr_result_t code, const char *text) {
+    (void)exr, (void)code, (void)text;
+}
+
+static exr_result_t start(const char *path, exr_context_t *exr) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = say_nothing;
+    return exr_start_read(exr, path, &how);
+}
+
+static const exr_attr_chlist_t *channels_of(exr_context_t exr) {
+    const exr_attr_chlist_t *list = NULL;
+    return exr_get_channels(exr, 0, &list) == EXR_ERR_SUCCESS ? list : NULL;
+}
+
+static bool is_deep(exr_context_t exr) {
+    exr_storage_t storage;
+    return exr_get_storage(exr, 0, &storage) == EXR_ERR_SUCCESS &&
+           storage == EXR_STORAGE_DEEP_SCANLINE;
+}
+
+bool wf_deep_is(const char *path) {
+    exr_context_t exr = NULL;
+    bool found = false;
+    if (start(path, &exr) != EXR_ERR_SUCCESS) return false;
+    const exr_attr_chlist_t *list = is_deep(exr) ? channels_of(exr) : NULL;
+    for (int c = 0; list && c < list->num_channels; c++)
+        found |= !strcmp(list->entries[c].name.str, names[WF_DEEP_X].name);
+    exr_finish(&exr);
+    return found;
+}
+
+/* ---- Opening ---- */
+
+static int what_is(const char *name) {
+    for (int w = 0; w < WF_DEEP_CHANNELS; w++)
+        if (!strcmp(names[w].name, name)) return w;
+    return -1;
+}
+
+static weft_status find_channels(wf_deep_file *f, weft_error *err) {
+    const exr_attr_chlist_t *list = channels_of(f->exr);
+    if (!list || list->num_channels > MOST_STORED)
+        return wf_fail(err, WEFT_FAILED, "%s: its channels cannot be read, or are too many",
+                       f->path);
+    for (int c = 0; c < list->num_channels; c++) {
+        stored *s = &f->channel[f->count++];
+        *s = (stored){what_is(list->entries[c].name.str), list->entries[c].pixel_type};
+        f->sample_bytes += s->type == EXR_PIXEL_HALF ? 2 : 4;
+        if (s->what >= 0 && s->type != EXR_PIXEL_UINT) f->has[s->what] = true;
+    }
+    for (int w = 0; w < WF_DEEP_CHANNELS; w++)
+        if (names[w].needed && !f->has[w])
+            return wf_fail(err, WEFT_FAILED,
+                           "%s: a sample buffer has channels R G B sample.x sample.y sample.t, "
+                           "half or float, and %s is missing",
+                           f->path, names[w].name);
+    return WEFT_OK;
+}
+
+static weft_status check_windows(wf_deep_file *f, const wf_raster *raster, weft_error *err) {
+    exr_attr_box2i_t display, data;
+    if (exr_get_display_window(f->exr, 0, &display) || exr_get_data_window(f->exr, 0, &data))
+        return wf_fail(err, WEFT_FAILED, "%s: it has no windows", f->path);
+    int64_t width = (int64_t)display.max.x - display.min.x + 1;
+    int64_t lines = (int64_t)display.max.y - display.min.y + 1;
+    bool same = data.min.x == 0 && data.max.x == raster->width_px - 1 && data.min.y >= 0 &&
+                data.max.y < raster->lines && data.min.y <= data.max.y;
+    if (width != raster->width_px || lines != raster->lines || !same)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: its samples are of a raster of %" PRId64 "x%" PRId64
+                       ", and %s is %dx%d; give --raster",
+                       f->path, width, lines, raster->name, raster->width_px, raster->lines);
+    f->width = raster->width_px;
+    f->lines = raster->lines;
+    f->y0 = data.min.y;
+    f->y1 = data.max.y + 1;
+    return WEFT_OK;
+}
+
+static weft_status check_compression(wf_deep_file *f, weft_error *err) {
+    bool known =
+        !exr_get_compression(f->exr, 0, &f->compression) &&
+        (f->compression == EXR_COMPRESSION_NONE || f->compression == EXR_COMPRESSION_RLE ||
+         f->compression == EXR_COMPRESSION_ZIPS);
+    return known ? WEFT_OK
+                 : wf_fail(err, WEFT_FAILED,
+                           "%s: deep pictures are compressed by none, RLE or ZIPS, not as this",
+                           f->path);
+}
+
+static const char *text_of(const wf_deep_file *f, const char *name) {
+    const char *text = NULL;
+    int32_t length;
+    return exr_attr_get_string(f->exr, 0, name, &length, &text) || !text ? "" : text;
+}
+
+weft_status wf_deep_open(const char *path, const wf_raster *raster, wf_deep_file **out,
+                         weft_error *err) {
+    wf_deep_file *f = calloc(1, sizeof *f);
+    if (!f || !(f->path = strdup(path))) {
+        free(f);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory", path);
+    }
+    exr_result_t result = start(path, &f->exr);
+    weft_status status = WEFT_OK;
+    if (result != EXR_ERR_SUCCESS)
+        status = wf_fail(err, WEFT_FAILED, "%s: %s", path, wf_exr_trouble(result));
+    else if (!is_deep(f->exr))
+        status = wf_fail(err, WEFT_FAILED,
+                         "%s: the first file is a sample buffer and this one is not", path);
+    if (!status) status = find_channels(f, err);
+    if (!status) status = check_windows(f, raster, err);
+    if (!status) status = check_compression(f, err);
+    if (status) {
+        wf_deep_close(f);
+        return status;
+    }
+    f->raster = text_of(f, "weft:raster");
+    f->space = text_of(f, "weft:colorSpace");
+    *out = f;
+    return WEFT_OK;
+}
+
+void wf_deep_close(wf_deep_file *f) {
+    if (!f) return;
+    if (f->exr) exr_finish(&f->exr);
+    free(f->path);
+    free(f);
+}
+
+const char *wf_deep_raster(const wf_deep_file *f) {
+    return f->raster;
+}
+
+const char *wf_deep_space(const wf_deep_file *f) {
+    return f->space;
+}
+
+/* ---- Lines ---- */
+
+static weft_status damaged(const wf_deep_file *f, int y, const char *how, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED, "%s: line %d is damaged: %s", f->path, y, how);
+}
+
+/* Runs: a count n >= 0 and a byte that comes n + 1 times, or n < 0 and -n bytes as they are. */
+static bool expand_runs(const uint8_t *in, size_t in_bytes, uint8_t *out, size_t bytes) {
+    const uint8_t *end = in + in_bytes, *last = out + bytes;
+    while (in < end) {
+        int n = (int8_t)*in++;
+        size_t count = n < 0 ? (size_t)-n : (size_t)n + 1, take = n < 0 ? count : 1;
+        if (count > (size_t)(last - out) || take > (size_t)(end - in)) return false;
+        if (n < 0)
+            memcpy(out, in, count);
+        else
+            memset(out, *in, count);
+        in += take;
+        out += count;
+    }
+    return out == last;
+}
+
+/* A block of a chunk, unpacked; stored ones are as they are. */
+static bool unpack(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *in,
+                   size_t in_bytes, size_t bytes, const uint8_t **out) {
+    *out = in;
+    if (f->compression == EXR_COMPRESSION_NONE || in_bytes == bytes) return in_bytes == bytes;
+    if (!wf_room(&b->inflated, &b->inflated_room, bytes + 1) ||
+        !wf_room(&b->merged, &b->merged_room, bytes + 64))
+        return false;
+    bool good;
+    if (f->compression == EXR_COMPRESSION_RLE) {
+        good = expand_runs(in, in_bytes, b->inflated, bytes);
+    } else {
+        struct libdeflate_decompressor *how = libdeflate_alloc_decompressor();
+        good = how && libdeflate_zlib_decompress(how, in, in_bytes, b->inflated, bytes, NULL) ==
+                          LIBDEFLATE_SUCCESS;
+        if (how) libdeflate_free_decompressor(how);
+    }
+    if (good) wf_unzip_ops_best()->merge(b->merged, b->inflated, bytes);
+    *out = b->merged;
+    return good;
+}
+
+static bool check_counts(const int32_t *upto, int width) {
+    for (int i = 0, before = 0; i < width; before = upto[i++])
+        if (upto[i] < before || upto[i] - before > MOST_IN_PIXEL) return false;
+    return true;
+}
+
+static float value_at(const uint8_t *from, exr_pixel_type_t type, size_t i) {
+    uint16_t half;
+    float value;
+    if (type == EXR_PIXEL_HALF) {
+        memcpy(&half, from + 2 * i, sizeof half);
+        return wf_half_value(half);
+    }
+    memcpy(&value, from + 4 * i, sizeof value);
+    return value;
+}
+
+static bool take_channels(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *raw,
+                          size_t samples) {
+    size_t need = WF_DEEP_CHANNELS * (samples + 1) * sizeof(float);
+    if (!wf_room(&b->floats, &b->floats_room, need)) return false;
+    for (int w = 0; w < WF_DEEP_CHANNELS; w++)
+        b->line.channel[w] = f->has[w] ? b->floats + (size_t)w * (samples + 1) : NULL;
+    for (int c = 0; c < f->count; c++) {
+        const stored *s = &f->channel[c];
+        float *to = s->what < 0 || s->type == EXR_PIXEL_UINT ? NULL : b->line.channel[s->what];
+        for (size_t i = 0; to && i < samples; i++) to[i] = value_at(raw, s->type, i);
+        raw += samples * (s->type == EXR_PIXEL_HALF ? 2 : 4);
+    }
+    return true;
+}
+
+static weft_status check_samples(const wf_deep_file *f, const wf_deep_buffers *b, int y,
+                                 weft_error *err) {
+    const wf_deep_line *l = &b->line;
+    for (int i = 0, k = 0; i < f->width; i++)
+        for (; k < l->upto[i]; k++) {
+            for (int w = 0; w < WF_DEEP_CHANNELS; w++)
+                if (l->channel[w] && !isfinite(l->channel[w][k]))
+                    return wf_fail(err, WEFT_FAILED,
+                                   "%s: a sample of line %d, pixel %d has a %s that is not "
+                                   "finite",
+                                   f->path, y, i, names[w].name);
+            float x = l->channel[WF_DEEP_X][k], at = l->channel[WF_DEEP_Y][k];
+            if (!(x >= (float)i && x <= (float)(i + 1) && at >= (float)y &&
+                  at <= (float)(y + 1)))
+                return wf_fail(err, WEFT_FAILED,
+                               "%s: a sample of line %d, pixel %d says that it lies at %g, %g",
+                               f->path, y, i, (double)x, (double)at);
+        }
+    return WEFT_OK;
+}
+
+static weft_status read_chunk(const wf_deep_file *f, wf_deep_buffers *b, int y,
+                              weft_error *err) {
+    exr_chunk_info_t info;
+    size_t table = (size_t)f->width * sizeof(int32_t);
+    const uint8_t *counts, *raw;
+    if (exr_read_scanline_chunk_info(f->exr, 0, y, &info))
+        return damaged(f, y, "it is not there", err);
+    /* A deflated block is not longer than it was, and a table's length is known. */
+    if (info.sample_count_table_size > 2 * table + 1024 ||
+        info.packed_size > (uint64_t)1 << 32 || info.unpacked_size > (uint64_t)1 << 32)
+        return damaged(f, y, "its sizes are not those of samples", err);
+    size_t data = (size_t)info.packed_size;
+    if (!wf_room(&b->packed, &b->packed_room, (size_t)info.sample_count_table_size + data + 1))
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
+    uint8_t *packed = b->packed + info.sample_count_table_size;
+    if (exr_read_deep_chunk(f->exr, 0, &info, packed, b->packed))
+        return damaged(f, y, "it cannot be read", err);
+    if (!unpack(f, b, b->packed, (size_t)info.sample_count_table_size, table, &counts))
+        return damaged(f, y, "its counts do not unpack", err);
+    memcpy(b->line.upto, counts, table);
+    if (!check_counts(b->line.upto, f->width)) return damaged(f, y, "its counts are none", err);
+    size_t samples = (size_t)b->line.upto[f->width - 1];
+    if (samples * f->sample_bytes != info.unpacked_size ||
+        !unpack(f, b, packed, data, samples * f->sample_bytes, &raw))
+        return damaged(f, y, "its samples do not unpack to their number", err);
+    if (!take_channels(f, b, raw, samples))
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
+    return check_samples(f, b, y, err);
+}
+
+weft_status wf_deep_read(const wf_deep_file *f, wf_deep_buffers *b, int y, weft_error *err) {
+    if (!b->line.upto) b->line.upto = malloc((size_t)f->width * sizeof *b->line.upto);
+    if (!b->line.upto) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory", f->path);
+    if (y >= f->y0 && y < f->y1) return read_chunk(f, b, y, err);
+    memset(b->line.upto, 0, (size_t)f->width * sizeof *b->line.upto);
+    return WEFT_OK;
+}
+
+void wf_deep_buffers_free(wf_deep_buffers *b) {
+    free(b->packed);
+    free(b->inflated);
+    free(b->merged);
+    free(b->floats);
+    free(b->line.upto);
+    *b = (wf_deep_buffers){0};
+}

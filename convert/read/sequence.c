@@ -1,0 +1,409 @@
+/* From what was typed to the files: patterns, directories, lists, and one file with many parts.
+ */
+#include "convert/read/sequence.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "convert/base/range.h"
+#include "convert/read/selection.h"
+#include "convert/read/source.h"
+
+/* ---- Names ---- */
+
+/* The first length bytes of text; NULL when memory is out. "" stands for "." where it is
+ * opened. */
+static char *directory_of(const char *text, size_t length, weft_error *err) {
+    char *directory = strndup(text, length);
+    if (!directory) wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", wf_path_tail(text));
+    return directory;
+}
+
+static const char *openable(const char *directory) {
+    return *directory ? directory : ".";
+}
+
+static wf_candidates candidates_of(const wf_numbered_list *list, const char *directory,
+                                   const char *input) {
+    return (wf_candidates){list->entry, list->count, directory, input, WF_RANGE_MOST};
+}
+
+/* What a directory holds, for a message: "; the directory holds beauty.####.exr 1-48". */
+static void tell_what_is_there(const wf_names *names, char *text, size_t size) {
+    static const char before[] = "; the directory holds ";
+    wf_numbered_list groups;
+    *text = '\0';
+    if (wf_names_group(names, false, &groups, NULL)) return;
+    memcpy(text, before, sizeof before);
+    if (groups.count)
+        wf_groups_text(&groups, text + sizeof before - 1, size - sizeof before);
+    else
+        snprintf(text, size, "; the directory holds no numbered pictures");
+    free(groups.entry);
+}
+
+/* ---- One file ---- */
+
+typedef struct timed_parts {
+    int count, *part;
+    wf_rational *time;
+} timed_parts;
+
+/* Parts are numbered from 0 in steps of the time they have in common, so that a gap is seen. */
+static weft_status number_parts(const char *path, const timed_parts *parts, wf_numbered *entry,
+                                weft_error *err) {
+    size_t count = (size_t)parts->count;
+    for (size_t i = 0; i < count; i++)
+        entry[i] =
+            (wf_numbered){.number = parts->time[i], .name = path, .part = parts->part[i]};
+    wf_rational step = {0, 1};
+    for (size_t i = 1; i < count; i++) {
+        wf_rational way = wf_number_minus(parts->time[i], parts->time[i - 1]);
+        if (wf_ratio_given(way) && way.num <= 0)
+            return wf_fail(err, WEFT_FAILED, "%s: parts %d and %d have the same weft:time",
+                           wf_path_tail(path), parts->part[i - 1], parts->part[i]);
+        step = wf_number_common_step(step, way);
+    }
+    if (count == 1) step = wf_ratio(1, 1);
+    for (size_t i = 0; i < count; i++) {
+        wf_rational since = wf_number_minus(parts->time[i], parts->time[0]);
+        entry[i].number = wf_ratio_div(since, step);
+        if (!wf_ratio_given(entry[i].number))
+            return wf_fail(
+                err, WEFT_FAILED,
+                "%s: the parts' weft:time have no step in common; give them as whole "
+                "multiples of one over the rate",
+                wf_path_tail(path));
+    }
+    return WEFT_OK;
+}
+
+static weft_status expand_parts(const char *path, const timed_parts *parts, const char *frames,
+                                wf_sequence *out, weft_error *err) {
+    wf_numbered_list list = {malloc((size_t)parts->count * sizeof *list.entry),
+                             (size_t)parts->count};
+    if (!list.entry)
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", wf_path_tail(path));
+    weft_status status = number_parts(path, parts, list.entry, err);
+    wf_candidates from = candidates_of(&list, "", path);
+    if (!status) status = wf_select(&from, frames, out, err);
+    free(list.entry);
+    return status;
+}
+
+/* A picture alone has the number of its name, or 0. */
+static weft_status expand_picture(const char *path, const char *frames, wf_sequence *out,
+                                  weft_error *err) {
+    wf_numbered entry;
+    if (!wf_name_number_of(wf_base_name(path), false, &entry)) entry.number = wf_ratio(0, 1);
+    entry.name = path;
+    entry.part = -1;
+    const wf_numbered_list list = {&entry, 1};
+    wf_candidates from = candidates_of(&list, "", path);
+    return wf_select(&from, frames, out, err);
+}
+
+static weft_status expand_file(const char *path, const char *frames, wf_sequence *out,
+                               weft_error *err) {
+    timed_parts parts = {0};
+    weft_status status =
+        wf_source_timed_parts(path, &parts.count, &parts.part, &parts.time, err);
+    if (status) return status;
+    status = parts.count > 0 ? expand_parts(path, &parts, frames, out, err)
+                             : expand_picture(path, frames, out, err);
+    free(parts.part);
+    free(parts.time);
+    return status;
+}
+
+/* ---- A pattern ---- */
+
+static weft_status refuse_empty(const char *text, const wf_names *names, weft_error *err) {
+    char there[480];
+    tell_what_is_there(names, there, sizeof there);
+    return wf_fail(err, WEFT_FAILED, "%s matches no file%s", wf_path_tail(text), there);
+}
+
+static weft_status expand_matches(const char *text, const wf_pattern *pattern,
+                                  const char *directory, const char *frames, wf_sequence *out,
+                                  weft_error *err) {
+    wf_names names = {0};
+    wf_numbered_list list = {0};
+    weft_status status = wf_names_read(openable(directory), &names, err);
+    if (!status) status = wf_names_match(&names, pattern, &list, err);
+    if (!status && !list.count) status = refuse_empty(text, &names, err);
+    wf_candidates from = candidates_of(&list, directory, text);
+    if (!status) status = wf_select(&from, frames, out, err);
+    free(list.entry);
+    wf_names_free(&names);
+    return status;
+}
+
+static weft_status expand_pattern(const char *text, const wf_pattern *pattern,
+                                  const char *frames, wf_sequence *out, weft_error *err) {
+    char *directory = directory_of(text, pattern->directory_length, err);
+    if (!directory) return WEFT_NO_MEMORY;
+    weft_status status = expand_matches(text, pattern, directory, frames, out, err);
+    free(directory);
+    return status;
+}
+
+/* ---- A directory ---- */
+
+/* How much of the range of its numbers a group fills; 0 for a file alone. */
+static double density(const wf_numbered *entry, size_t count) {
+    wf_rational step = wf_natural_step(entry, count);
+    if (count < 2 || !wf_ratio_given(step)) return 0;
+    int64_t numbers = wf_number_count(entry[0].number, entry[count - 1].number, step);
+    return (double)count / (double)numbers;
+}
+
+/* The only group of more than one file; its entries first .. end - 1. */
+static bool only_group(const wf_numbered_list *list, size_t *first, size_t *end) {
+    int found = 0;
+    for (size_t i = 0, next; i < list->count; i = next) {
+        next = wf_group_end(list, i);
+        if (next - i < 2) continue;
+        *first = i;
+        *end = next;
+        found++;
+    }
+    return found == 1;
+}
+
+static double group_density(const wf_numbered_list *list) {
+    size_t first, end;
+    return only_group(list, &first, &end) ? density(list->entry + first, end - first) : 0;
+}
+
+static const char *only_picture(const wf_names *names) {
+    const char *found = NULL;
+    for (const char *name = NULL; (name = wf_names_next(names, name));) {
+        if (!wf_name_is_picture(name)) continue;
+        if (found) return NULL;
+        found = name;
+    }
+    return found;
+}
+
+/* A directory has one reading or the other: "shot.1001.25.exr" is a sub-frame where that makes
+ * one sequence with fewer gaps, and picture 25 of scene 1001 elsewhere. */
+static weft_status read_groups(const wf_names *names, wf_numbered_list *out, weft_error *err) {
+    wf_numbered_list fractions = {0};
+    weft_status status = wf_names_group(names, false, out, err);
+    if (!status) status = wf_names_group(names, true, &fractions, err);
+    double whole = status ? 0 : group_density(out),
+           parts = status ? 0 : group_density(&fractions);
+    bool subframes = parts > whole && parts >= 0.5;
+    free(subframes ? out->entry : fractions.entry);
+    if (subframes) *out = fractions;
+    return status;
+}
+
+static weft_status refuse_groups(const char *input, const wf_names *names,
+                                 const wf_numbered_list *groups, weft_error *err) {
+    char there[600];
+    wf_groups_text(groups, there, sizeof there);
+    if (!groups->count)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: the directory holds no numbered pictures among its %zu files; give a "
+            "pattern such as shot.####.exr, or the files in order",
+            wf_path_tail(input), names->count);
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: the directory does not hold just one sequence; give the pattern of one of "
+        "%s",
+        wf_path_tail(input), there);
+}
+
+static weft_status expand_names(const char *input, const wf_names *names, const char *directory,
+                                const char *frames, wf_sequence *out, weft_error *err) {
+    wf_numbered_list groups = {0};
+    size_t first = 0, end = 0;
+    weft_status status = read_groups(names, &groups, err);
+    if (!status && !only_group(&groups, &first, &end))
+        status = refuse_groups(input, names, &groups, err);
+    if (!status) {
+        const wf_numbered_list group = {groups.entry + first, end - first};
+        wf_candidates from = candidates_of(&group, directory, input);
+        status = wf_select(&from, frames, out, err);
+    }
+    free(groups.entry);
+    return status;
+}
+
+static weft_status expand_lone(const char *directory, const char *name, const char *frames,
+                               wf_sequence *out, weft_error *err) {
+    char *path;
+    if (asprintf(&path, "%s%s", directory, name) < 0)
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", wf_path_tail(directory));
+    weft_status status = expand_file(path, frames, out, err);
+    free(path);
+    return status;
+}
+
+static weft_status expand_directory(const char *input, const char *frames, wf_sequence *out,
+                                    weft_error *err) {
+    char *directory;
+    const char *slash = input[strlen(input) - 1] == '/' ? "" : "/";
+    if (asprintf(&directory, "%s%s", input, slash) < 0)
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", wf_path_tail(input));
+    wf_names names = {0};
+    weft_status status = wf_names_read(directory, &names, err);
+    const char *lone = status ? NULL : only_picture(&names);
+    if (!status)
+        status = lone ? expand_lone(directory, lone, frames, out, err)
+                      : expand_names(input, &names, directory, frames, out, err);
+    wf_names_free(&names);
+    free(directory);
+    return status;
+}
+
+/* ---- A list of files ---- */
+
+static int order_paths(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static weft_status check_list(char *const *inputs, size_t count, weft_error *err) {
+    char **sorted = malloc(count * sizeof *sorted);
+    if (!sorted) return wf_fail(err, WEFT_NO_MEMORY, "out of memory for %zu inputs", count);
+    memcpy(sorted, inputs, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, order_paths);
+    weft_status status = WEFT_OK;
+    for (size_t i = 1; i < count && !status; i++)
+        if (!strcmp(sorted[i - 1], sorted[i]))
+            status = wf_fail(err, WEFT_USAGE, "%s: given twice; every subframe is taken once",
+                             wf_path_tail(sorted[i]));
+    free(sorted);
+    return status;
+}
+
+/* Reads the numbers of a list that is one sequence in its order; how much of its range it
+ * fills, or 0 if it is none. */
+static double number_list(char *const *inputs, size_t count, bool subframes,
+                          wf_numbered *entry) {
+    size_t directory = (size_t)(wf_base_name(inputs[0]) - inputs[0]);
+    for (size_t i = 0; i < count; i++) {
+        const char *name = wf_base_name(inputs[i]);
+        bool same = (size_t)(name - inputs[i]) == directory &&
+                    !memcmp(inputs[i], inputs[0], directory) &&
+                    wf_name_number_of(name, subframes, &entry[i]) &&
+                    entry[i].group == entry[0].group;
+        if (!same || (i && wf_number_order(entry[i].number, entry[i - 1].number) <= 0))
+            return 0;
+        entry[i].name = inputs[i];
+    }
+    return density(entry, count);
+}
+
+static void count_list(char *const *inputs, size_t count, wf_numbered *entry) {
+    for (size_t i = 0; i < count; i++)
+        entry[i] = (wf_numbered){.number = {(int64_t)i, 1}, .name = inputs[i], .part = -1};
+}
+
+static weft_status expand_list(char *const *inputs, size_t count, const char *frames,
+                               wf_sequence *out, weft_error *err) {
+    weft_status status = check_list(inputs, count, err);
+    if (status) return status;
+    wf_numbered_list list = {malloc(count * sizeof *list.entry), count};
+    if (!list.entry) return wf_fail(err, WEFT_NO_MEMORY, "out of memory for %zu inputs", count);
+    double parts = number_list(inputs, count, true, list.entry);
+    double whole = number_list(inputs, count, false, list.entry);
+    if (parts > whole)
+        number_list(inputs, count, true, list.entry);
+    else if (whole <= 0)
+        count_list(inputs, count, list.entry);
+    wf_candidates from = candidates_of(&list, "", inputs[0]);
+    status = wf_select(&from, frames, out, err);
+    free(list.entry);
+    return status;
+}
+
+/* ---- All of it ---- */
+
+typedef enum input_kind { FILE_INPUT, DIRECTORY_INPUT, PATTERN_INPUT } input_kind;
+
+static weft_status refuse_absent(const char *input, int code, weft_error *err) {
+    char there[480] = "";
+    wf_names names = {0};
+    char *directory = directory_of(input, (size_t)(wf_base_name(input) - input), err);
+    if (!directory) return WEFT_NO_MEMORY;
+    if (code == ENOENT && !wf_names_read(openable(directory), &names, NULL))
+        tell_what_is_there(&names, there, sizeof there);
+    wf_names_free(&names);
+    free(directory);
+    return wf_fail(err, WEFT_FAILED, "%s: %s%s", wf_path_tail(input), strerror(code), there);
+}
+
+/* A file that is there is itself, whatever signs its name holds. */
+static weft_status classify(const char *input, input_kind *kind, wf_pattern *pattern,
+                            weft_error *err) {
+    struct stat about;
+    char why[256];
+    *kind = PATTERN_INPUT;
+    if (!*input)
+        return wf_fail(err, WEFT_USAGE,
+                       "an input's name is empty; give a file, a pattern such as "
+                       "shot.####.exr, or a directory");
+    if (!stat(input, &about)) {
+        *kind = S_ISDIR(about.st_mode) ? DIRECTORY_INPUT : FILE_INPUT;
+        return WEFT_OK;
+    }
+    int code = errno;
+    wf_pattern_kind found = wf_pattern_parse(input, pattern, why, sizeof why);
+    if (found == WF_PATTERN_BAD)
+        return wf_fail(err, WEFT_USAGE, "%s: %s", wf_path_tail(input), why);
+    return found == WF_PATTERN_OK ? WEFT_OK : refuse_absent(input, code, err);
+}
+
+static weft_status expand_one(const char *input, const char *frames, wf_sequence *out,
+                              weft_error *err) {
+    input_kind kind;
+    wf_pattern pattern;
+    weft_status status = classify(input, &kind, &pattern, err);
+    if (status) return status;
+    if (kind == PATTERN_INPUT) return expand_pattern(input, &pattern, frames, out, err);
+    return (kind == FILE_INPUT ? expand_file : expand_directory)(input, frames, out, err);
+}
+
+static weft_status expand_many(char *const *inputs, size_t count, const char *frames,
+                               wf_sequence *out, weft_error *err) {
+    for (size_t i = 0; i < count; i++) {
+        input_kind kind;
+        wf_pattern pattern;
+        weft_status status = classify(inputs[i], &kind, &pattern, err);
+        if (status) return status;
+        if (kind != FILE_INPUT)
+            return wf_fail(
+                err, WEFT_USAGE,
+                "%s: %s stands alone; inputs are one pattern, one directory, or files "
+                "in order",
+                wf_path_tail(inputs[i]), kind == PATTERN_INPUT ? "a pattern" : "a directory");
+    }
+    return expand_list(inputs, count, frames, out, err);
+}
+
+/* File names may hold line breaks; messages are of one line. */
+static void keep_to_one_line(weft_error *err) {
+    for (char *c = err->text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
+}
+
+weft_status wf_sequence_expand(char *const *inputs, size_t count, const char *frames,
+                               wf_sequence *out, weft_error *err) {
+    *out = (wf_sequence){0};
+    if (!count)
+        return wf_fail(err, WEFT_USAGE,
+                       "no input; give a file, a pattern such as shot.####.exr, "
+                       "or a directory");
+    weft_status status = count == 1 ? expand_one(inputs[0], frames, out, err)
+                                    : expand_many(inputs, count, frames, out, err);
+    if (status && err) keep_to_one_line(err);
+    return status;
+}

@@ -1,0 +1,38 @@
+#ifndef WF_CONVERT_READ_SEQUENCE_H
+#define WF_CONVERT_READ_SEQUENCE_H
+
+#include "convert/base/fail.h"
+#include "filters/base/rational.h"
+
+/* One subframe of a sequence: a file, or one part of a multi-part file. A missing one has no
+ * path. */
+typedef struct wf_subframe_ref {
+    char *path;         /* NULL: the number is absent from the selected range */
+    int part;           /* -1: the part --part names, or the first one with a picture */
+    wf_rational number; /* frame number; "12.25" is 49/4 */
+} wf_subframe_ref;
+
+/* An ordered list of the subframes selected, missing ones included. Owned by the caller; freed
+ * by wf_sequence_free. Not shared between threads while it is built; read-only afterwards. */
+typedef struct wf_sequence {
+    wf_subframe_ref *refs;
+    size_t count;
+    size_t missing;   /* how many refs have no path */
+    wf_rational step; /* of the selection, in the files' own steps: 1, or 2 after "x2" or after
+                         x0.5 of quarters; the rate that files state is divided by it */
+} wf_sequence;
+
+/* Expands inputs (patterns "shot.####.exr", "shot.@@@@.exr", "shot.%04d.exr", "shot.#.#.exr",
+ * a directory, or an explicit list of files) and the range frames ("1-10", "1-10x2",
+ * "1001-1066x0.25", or NULL for all that exist) into *out. Numbers between the first and the
+ * last selected that have no file are refs without a path. Files of a list keep its order and
+ * are numbered from 0, unless they are one sequence in ascending order: then gaps are seen.
+ * Parts with weft:time of a single file are a sequence numbered from 0. Duplicate numbers
+ * ("a.1.exr" beside "a.0001.exr"), an empty match, a directory that holds two sequences, ':'
+ * steps and malformed ranges are errors that name what is there and what would be right. */
+weft_status wf_sequence_expand(char *const *inputs, size_t input_count, const char *frames,
+                               wf_sequence *out, weft_error *err);
+
+void wf_sequence_free(wf_sequence *sequence);
+
+#endif

@@ -1,0 +1,68 @@
+#ifndef WF_CONVERT_READ_SOURCE_H
+#define WF_CONVERT_READ_SOURCE_H
+
+#include "convert/base/fail.h"
+#include "convert/job/choices.h"
+#include "convert/media/image.h"
+
+/* What the job asks of every subframe. Strings are borrowed and outlive the source. */
+typedef struct wf_source_options {
+    const char *layer; /* channel prefix, NULL: the default layer */
+    const char *part;  /* part name or number, NULL: the first part with a picture */
+    bool want_alpha;   /* deliver A as a fourth channel where the file has one */
+    wf_nan_fix nan_fix;
+    size_t max_memory_bytes;
+} wf_source_options;
+
+typedef enum wf_sample_type { WF_HALF, WF_FLOAT } wf_sample_type;
+
+/* Rows y0 <= y < y1 of one subframe, columns data.x0 .. data.x1: plane[c] is channel c (R, G,
+ * B[, A]) at (x0, y0), line_stride samples from line to line. A lone Y is delivered three
+ * times. Memory belongs to the reader that made it and lives until its next wf_reader_rows. */
+typedef struct wf_rows {
+    const void *plane[4];
+    size_t line_stride;
+    wf_sample_type type;
+    int channels; /* 3, or 4 with alpha */
+    int y0, y1, x0, x1;
+} wf_rows;
+
+typedef struct wf_subframe
+    wf_subframe;                    /* an open picture: immutable after opening, any threads */
+typedef struct wf_reader wf_reader; /* buffers of one thread */
+
+typedef struct wf_source_counts {
+    int64_t chunks_decoded, chunks_reused, nan_fixed;
+} wf_source_counts;
+
+/* Opens path (part as in wf_subframe_ref) and checks everything that can be checked without
+ * decoding pixels: channels, windows, sizes against max_memory_bytes, compression. EXR goes
+ * through OpenEXRCore; DWAA, DWAB and every other format through the OpenImageIO module. */
+weft_status wf_subframe_open(const char *path, int part, const wf_source_options *options,
+                             wf_subframe **out, weft_error *err);
+void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */
+const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
+
+weft_status wf_reader_new(const wf_source_options *options, wf_reader **out, weft_error *err);
+void wf_reader_free(wf_reader *reader);
+
+/* Reads rows y0 <= y < y1 (inside the data window) with NaN and Inf mended as nan_fix says
+ * (box3 looks at rows beyond y0 and y1 where it has to). Chunks whose packed bytes equal those
+ * of the reader's previous result for the same rows are reused, not inflated. Errors name the
+ * file and the line. */
+weft_status wf_reader_rows(wf_reader *reader, const wf_subframe *subframe, int y0, int y1,
+                           wf_rows *rows, weft_error *err);
+
+/* Whether wf_reader_rows would return for these rows what the reader's last result already
+ * holds, seen from packed bytes alone. The last result stays valid. */
+weft_status wf_reader_same(wf_reader *reader, const wf_subframe *subframe, int y0, int y1,
+                           bool *same, weft_error *err);
+wf_source_counts wf_reader_counts(const wf_reader *reader);
+
+/* How many parts of a file carry weft:time: a multi-part file with any is a sequence, ordered
+ * by it. 0 for files that are not multi-part EXR. part_of (if not NULL) receives the part
+ * numbers, in order of time, and time_of their times; both owned by the caller, free(). */
+weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
+                                  wf_rational **time_of, weft_error *err);
+
+#endif

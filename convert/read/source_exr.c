@@ -1,0 +1,429 @@
+/* Opening EXR files: everything that can be known and checked without decoding a pixel. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "convert/read/subframe.h"
+
+/* Enough for any picture; what a file really may cost is checked against its own length and
+ * --max-memory. */
+#define MOST_PIXELS_A_SIDE (1 << 24)
+
+const char *wf_exr_trouble(exr_result_t result) {
+    return exr_get_default_error_message(result);
+}
+
+bool wf_is_exr(const char *path) {
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    unsigned char head[4] = {0};
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    size_t got = fread(head, 1, sizeof head, file);
+    fclose(file);
+    return got == sizeof head && !memcmp(head, magic, sizeof magic);
+}
+
+/* ---- Parts ---- */
+
+static const exr_attr_chlist_t *channels_of(exr_const_context_t exr, int part) {
+    const exr_attr_chlist_t *list = NULL;
+    return exr_get_channels(exr, part, &list) == EXR_ERR_SUCCESS ? list : NULL;
+}
+
+static const char *part_name(exr_const_context_t exr, int part) {
+    const char *name = NULL;
+    return exr_get_name(exr, part, &name) == EXR_ERR_SUCCESS && name ? name : "";
+}
+
+static bool pick_of(exr_const_context_t exr, int part, const char *layer, bool want_alpha,
+                    wf_pick *pick, char *why, size_t why_size) {
+    const exr_attr_chlist_t *list = channels_of(exr, part);
+    if (!list || list->num_channels < 1) {
+        if (why) snprintf(why, why_size, "no channels");
+        return false;
+    }
+    const char **name = malloc((size_t)list->num_channels * sizeof *name);
+    if (!name) {
+        if (why) snprintf(why, why_size, "no memory for the names of its channels");
+        return false;
+    }
+    for (int i = 0; i < list->num_channels; i++) name[i] = list->entries[i].name.str;
+    bool found =
+        wf_pick_channels(name, list->num_channels, layer, want_alpha, pick, why, why_size);
+    free(name);
+    return found;
+}
+
+static bool is_flat(exr_const_context_t exr, int part) {
+    exr_storage_t storage;
+    return exr_get_storage(exr, part, &storage) == EXR_ERR_SUCCESS &&
+           (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
+}
+
+static weft_status refuse_part(const wf_subframe *s, const char *wanted, int parts,
+                               weft_error *err) {
+    char list[512] = "";
+    size_t used = 0;
+    for (int i = 0; i < parts && used + 80 < sizeof list; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%d '%.60s'", i ? ", " : "",
+                                 i, part_name(s->exr, i));
+    return wf_fail(err, WEFT_FAILED, "%s: no part '%s'; its parts are %s", s->path, wanted,
+                   list);
+}
+
+/* The part --part names, by its name or its number. */
+static weft_status named_part(const wf_subframe *s, const char *wanted, int parts, int *part,
+                              weft_error *err) {
+    char *end;
+    long number = strtol(wanted, &end, 10);
+    for (int i = 0; i < parts; i++)
+        if (!strcmp(part_name(s->exr, i), wanted) || (*wanted && !*end && number == i)) {
+            *part = i;
+            return WEFT_OK;
+        }
+    return refuse_part(s, wanted, parts, err);
+}
+
+/* The first part with the picture asked for. Parts may be layers: one called like the layer is
+ * taken with its own R G B. */
+static weft_status search_parts(wf_subframe *s, const wf_source_options *o, int parts,
+                                wf_pick *pick, weft_error *err) {
+    char why[512] = "no flat picture, only deep ones";
+    bool complained = false;
+    for (int i = 0; i < parts; i++) {
+        if (!is_flat(s->exr, i)) continue;
+        bool is_layer = o->layer && !strcmp(part_name(s->exr, i), o->layer);
+        s->layer = is_layer ? NULL : o->layer;
+        s->part = i;
+        if (pick_of(s->exr, i, s->layer, o->want_alpha, pick, complained ? NULL : why,
+                    sizeof why))
+            return WEFT_OK;
+        complained = true;
+    }
+    return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
+}
+
+static weft_status choose_part(wf_subframe *s, const wf_source_options *o, int wanted,
+                               wf_pick *pick, weft_error *err) {
+    int parts = 0;
+    exr_get_count(s->exr, &parts);
+    if (wanted < 0 && !o->part) return search_parts(s, o, parts, pick, err);
+    s->part = wanted;
+    weft_status status = wanted < 0 ? named_part(s, o->part, parts, &s->part, err) : WEFT_OK;
+    if (status) return status;
+    char why[512];
+    if (s->part >= parts || !is_flat(s->exr, s->part))
+        return wf_fail(err, WEFT_FAILED, "%s: part %d is not a flat picture", s->path, s->part);
+    if (!pick_of(s->exr, s->part, o->layer, o->want_alpha, pick, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
+    return WEFT_OK;
+}
+
+/* ---- Layout ---- */
+
+static size_t type_bytes(exr_pixel_type_t type) {
+    return type == EXR_PIXEL_HALF ? 2 : 4;
+}
+
+static uint64_t hash_bytes(uint64_t hash, const void *data, size_t count) {
+    const unsigned char *byte = data;
+    for (size_t i = 0; i < count; i++) hash = (hash ^ byte[i]) * 0x100000001b3;
+    return hash;
+}
+
+static weft_status lay_out_channels(wf_subframe *s, const wf_pick *pick, weft_error *err) {
+    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    wf_exr_layout *l = &s->layout;
+    l->channels = pick->count;
+    l->channel_hash = 0xcbf29ce484222325;
+    for (int i = 0; i < list->num_channels; i++) {
+        const exr_attr_chlist_entry_t *c = &list->entries[i];
+        const int kind[] = {(int)c->pixel_type, c->p_linear};
+        if (c->x_sampling != 1 || c->y_sampling != 1)
+            return wf_fail(
+                err, WEFT_FAILED,
+                "%s: channel %s is subsampled %dx%d; weft reads channels of full size", s->path,
+                c->name.str, c->x_sampling, c->y_sampling);
+        for (int p = 0; p < pick->count; p++)
+            if (pick->channel[p] == i)
+                l->before[p] = l->pixel_bytes, l->type[p] = c->pixel_type;
+        l->pixel_bytes += type_bytes(c->pixel_type);
+        l->channel_hash = hash_bytes(l->channel_hash, c->name.str, strlen(c->name.str) + 1);
+        l->channel_hash = hash_bytes(l->channel_hash, kind, sizeof kind);
+    }
+    for (int p = 0; p < pick->count; p++)
+        if (l->type[p] == EXR_PIXEL_UINT)
+            return wf_fail(err, WEFT_FAILED,
+                           "%s: channel %s holds whole numbers; a picture is half or float",
+                           s->path, list->entries[pick->channel[p]].name.str);
+    return WEFT_OK;
+}
+
+static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
+    exr_storage_t storage;
+    int lines = 0;
+    wf_exr_layout *l = &s->layout;
+    exr_get_storage(s->exr, s->part, &storage);
+    exr_get_compression(s->exr, s->part, &l->compression);
+    if (storage == EXR_STORAGE_TILED) {
+        if (exr_get_tile_sizes(s->exr, s->part, 0, 0, &l->tile_width, &l->tile_height) ||
+            l->tile_width < 1 || l->tile_height < 1)
+            return wf_fail(err, WEFT_FAILED, "%s: its tiles have no size", s->path);
+        lines = l->tile_height;
+    } else if (exr_get_scanlines_per_chunk(s->exr, s->part, &lines) || lines < 1) {
+        return wf_fail(err, WEFT_FAILED, "%s: the height of its chunks cannot be told",
+                       s->path);
+    }
+    int height = l->data.y1 - l->data.y0;
+    l->chunk_lines = lines < height ? lines : height;
+    return WEFT_OK;
+}
+
+/* ---- Windows and sizes ---- */
+
+/* Half-open from EXR's inclusive corners; false where it is empty or absurd. */
+static bool read_window(exr_attr_box2i_t from, wf_box *to) {
+    const int64_t far = 1 << 30;
+    int64_t width = (int64_t)from.max.x - from.min.x + 1,
+            height = (int64_t)from.max.y - from.min.y + 1;
+    bool fine = width > 0 && height > 0 && width <= MOST_PIXELS_A_SIDE &&
+                height <= MOST_PIXELS_A_SIDE && from.min.x > -far && from.min.y > -far &&
+                from.max.x < far && from.max.y < far;
+    if (fine) *to = (wf_box){from.min.x, from.min.y, from.max.x + 1, from.max.y + 1};
+    return fine;
+}
+
+static weft_status read_windows(wf_subframe *s, weft_error *err) {
+    exr_attr_box2i_t data = {0}, display = {0};
+    exr_get_data_window(s->exr, s->part, &data);
+    exr_get_display_window(s->exr, s->part, &display);
+    if (!read_window(display, &s->info.display))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: its display window is empty or absurd: %d,%d to %d,%d", s->path,
+                       display.min.x, display.min.y, display.max.x, display.max.y);
+    if (!read_window(data, &s->info.data))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: its data window is empty or absurd: %d,%d to %d,%d", s->path,
+                       data.min.x, data.min.y, data.max.x, data.max.y);
+    s->layout.data = s->info.data;
+    return WEFT_OK;
+}
+
+/* Before anything is allocated: what the header promises must fit into the file, and what one
+ * band takes into memory. Deflate cannot shrink bytes more than 1032 times. */
+static weft_status check_sizes(const wf_subframe *s, const wf_source_options *o,
+                               weft_error *err) {
+    const wf_exr_layout *l = &s->layout;
+    struct stat about;
+    int chunks = 0;
+    uint64_t width = (uint64_t)(l->data.x1 - l->data.x0),
+             height = (uint64_t)(l->data.y1 - l->data.y0);
+    uint64_t length = stat(s->path, &about) ? 0 : (uint64_t)about.st_size;
+    exr_get_chunk_count(s->exr, s->part, &chunks);
+    uint64_t least = (uint64_t)chunks * 17;
+    bool deflated =
+        l->compression == EXR_COMPRESSION_ZIP || l->compression == EXR_COMPRESSION_ZIPS;
+    uint64_t bytes = width * height * l->pixel_bytes;
+    if (deflated && bytes / 1032 > least) least = bytes / 1032;
+    if (l->compression == EXR_COMPRESSION_NONE && bytes > least) least = bytes;
+    if (chunks < 1 || least > length)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: its header promises %" PRIu64 "x%" PRIu64
+                       " pixels, for which a file of %" PRIu64 " bytes is too short",
+                       s->path, width, height, length);
+    uint64_t band = width * (uint64_t)l->chunk_lines * l->pixel_bytes;
+    if (band > o->max_memory_bytes / 4)
+        return wf_fail(err, WEFT_NO_MEMORY,
+                       "%s: one row of its chunks is %" PRIu64
+                       " MB; raise --max-memory, or write the "
+                       "file with smaller tiles",
+                       s->path, band >> 20);
+    return WEFT_OK;
+}
+
+/* ---- Attributes ---- */
+
+static const exr_attribute_t *attribute(const wf_subframe *s, const char *name,
+                                        exr_attribute_type_t type) {
+    const exr_attribute_t *found = NULL;
+    if (exr_get_attribute_by_name(s->exr, s->part, name, &found) || !found) return NULL;
+    return found->type == type ? found : NULL;
+}
+
+/* A rational attribute, or a string that reads as one. */
+static wf_rational rational_of(const wf_subframe *s, const char *name) {
+    const exr_attribute_t *ratio = attribute(s, name, EXR_ATTR_RATIONAL);
+    const exr_attribute_t *text = attribute(s, name, EXR_ATTR_STRING);
+    wf_rational value = {0, 0};
+    if (ratio) return wf_ratio(ratio->rational->num, (int64_t)ratio->rational->denom);
+    if (text) wf_rate_parse(text->string->str, &value);
+    return value;
+}
+
+static wf_rational rate_of(const wf_subframe *s, const char *name) {
+    wf_rational rate = rational_of(s, name);
+    return wf_ratio_given(rate) && rate.num > 0 ? rate : (wf_rational){0, 0};
+}
+
+/* SMPTE 12M binary coded decimal, as OpenEXR packs it. */
+static void read_timecode(wf_subframe *s) {
+    const exr_attribute_t *code = attribute(s, "timeCode", EXR_ATTR_TIMECODE);
+    if (!code) return;
+    uint32_t t = code->timecode->time_and_flags;
+    unsigned frames = (t & 15) + 10 * (t >> 4 & 3),
+             seconds = (t >> 8 & 15) + 10 * (t >> 12 & 7);
+    unsigned minutes = (t >> 16 & 15) + 10 * (t >> 20 & 7),
+             hours = (t >> 24 & 15) + 10 * (t >> 28 & 3);
+    snprintf(s->info.timecode, sizeof s->info.timecode, "%02u:%02u:%02u%c%02u", hours % 100,
+             minutes % 100, seconds % 100, t & 0x40 ? ';' : ':', frames % 100);
+    s->info.timecode_mark = t >> 15 & 1;
+}
+
+static void read_raster(wf_subframe *s) {
+    const exr_attribute_t *text = attribute(s, "weft:raster", EXR_ATTR_STRING);
+    if (text) snprintf(s->info.raster, sizeof s->info.raster, "%s", text->string->str);
+}
+
+static const char *compression_name(exr_compression_t compression) {
+    static const char *const name[] = {"no compression", "RLE", "ZIPS", "ZIP",  "PIZ",
+                                       "PXR24",          "B44", "B44A", "DWAA", "DWAB"};
+    size_t index = (size_t)compression;
+    return index < sizeof name / sizeof *name ? name[index] : "unknown compression";
+}
+
+static void describe(wf_subframe *s) {
+    const wf_exr_layout *l = &s->layout;
+    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    char channels[48] = "";
+    size_t used = 0;
+    for (int i = 0; i < list->num_channels && i < 4; i++)
+        used += (size_t)snprintf(channels + used, sizeof channels - used, " %.8s",
+                                 list->entries[i].name.str);
+    snprintf(s->info.format, sizeof s->info.format, "OpenEXR %s, %s,%s%s %s",
+             l->tile_width ? "tiled" : "scanline", compression_name(l->compression), channels,
+             list->num_channels > 4 ? " .." : "",
+             l->type[0] == EXR_PIXEL_HALF ? "half" : "float");
+}
+
+static void read_attributes(wf_subframe *s) {
+    float aspect = 1;
+    exr_get_pixel_aspect_ratio(s->exr, s->part, &aspect);
+    s->info.pixel_aspect = aspect > 1e-3f && aspect < 1e3f ? (double)aspect : 1;
+    s->info.frames = rate_of(s, "framesPerSecond");
+    s->info.rate = rate_of(s, "weft:subframeRate");
+    if (!wf_ratio_given(s->info.rate)) s->info.rate = s->info.frames;
+    s->info.time_s = rational_of(s, "weft:time");
+    s->info.has_alpha = s->layout.channels == 4;
+    s->info.band_lines = s->layout.chunk_lines;
+    read_timecode(s);
+    read_raster(s);
+    describe(s);
+}
+
+/* ---- Opening ---- */
+
+/* OpenEXRCore tells in words what is wrong with a header; of chunks, which many threads read,
+ * only the status counts. */
+static void listen(exr_const_context_t exr, exr_result_t code, const char *message) {
+    void *user = NULL;
+    (void)code;
+    if (!exr || exr_get_user_data(exr, &user) || !user) return;
+    wf_subframe *s = user;
+    if (!s->opened) snprintf(s->trouble, sizeof s->trouble, "%s", message);
+}
+
+static weft_status start_reading(wf_subframe *s, weft_error *err) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = listen;
+    how.user_data = s;
+    how.max_image_width = how.max_image_height = MOST_PIXELS_A_SIDE;
+    how.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    exr_result_t result = exr_start_read(&s->exr, s->path, &how);
+    if (result == EXR_ERR_SUCCESS) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED, "%s: not a readable EXR file: %s", s->path,
+                   *s->trouble ? s->trouble : wf_exr_trouble(result));
+}
+
+static weft_status read_header(wf_subframe *s, const wf_source_options *o, int part,
+                               weft_error *err) {
+    wf_pick pick;
+    weft_status status = choose_part(s, o, part, &pick, err);
+    if (!status) status = read_windows(s, err);
+    if (!status) status = lay_out_channels(s, &pick, err);
+    if (!status) status = lay_out_chunks(s, err);
+    if (!status) status = check_sizes(s, o, err);
+    if (!status) read_attributes(s);
+    return status;
+}
+
+weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part,
+                        bool *needs_module, weft_error *err) {
+    weft_status status = start_reading(s, err);
+    s->opened = true;
+    if (!status) status = read_header(s, o, part, err);
+    exr_compression_t compression = s->layout.compression;
+    *needs_module = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    return status;
+}
+
+/* ---- Parts in time ---- */
+
+typedef struct timed_part {
+    wf_rational time;
+    int part;
+} timed_part;
+
+static int by_time(const void *a, const void *b) {
+    const timed_part *x = a, *y = b;
+    __int128 left = (__int128)x->time.num * y->time.den,
+             right = (__int128)y->time.num * x->time.den;
+    if (left != right) return left < right ? -1 : 1;
+    return (x->part > y->part) - (x->part < y->part);
+}
+
+static int find_timed(wf_subframe *s, timed_part *found, int parts) {
+    int count = 0;
+    for (s->part = 0; s->part < parts; s->part++) {
+        wf_rational time = rational_of(s, "weft:time");
+        if (wf_ratio_given(time)) found[count++] = (timed_part){time, s->part};
+    }
+    qsort(found, (size_t)count, sizeof *found, by_time);
+    return count;
+}
+
+static weft_status hand_out(const timed_part *found, int count, int **part_of,
+                            wf_rational **time_of, weft_error *err) {
+    *part_of = malloc((size_t)count * sizeof **part_of);
+    *time_of = malloc((size_t)count * sizeof **time_of);
+    if (!*part_of || !*time_of) {
+        free(*part_of);
+        free(*time_of);
+        return wf_fail(err, WEFT_NO_MEMORY, "no memory for a list of %d parts", count);
+    }
+    for (int i = 0; i < count; i++)
+        (*part_of)[i] = found[i].part, (*time_of)[i] = found[i].time;
+    return WEFT_OK;
+}
+
+weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
+                                  wf_rational **time_of, weft_error *err) {
+    wf_subframe *s = calloc(1, sizeof *s);
+    int parts = 0;
+    *count = 0;
+    if (!s || !(s->path = strdup(path))) {
+        free(s);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
+    }
+    weft_status status = wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
+    if (s->exr) exr_get_count(s->exr, &parts);
+    timed_part *found = calloc((size_t)parts + 1, sizeof *found);
+    if (!status && !found)
+        status = wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its parts", path);
+    if (!status && parts > 1) *count = find_timed(s, found, parts);
+    if (!status && *count && part_of) status = hand_out(found, *count, part_of, time_of, err);
+    free(found);
+    wf_subframe_close(s);
+    return status;
+}

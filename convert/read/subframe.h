@@ -1,0 +1,49 @@
+#ifndef WF_CONVERT_READ_SUBFRAME_H
+#define WF_CONVERT_READ_SUBFRAME_H
+
+#include <openexr.h>
+
+#include "convert/read/layers.h"
+#include "convert/read/source.h"
+
+/* Inside the source: an open picture, and how its decoded bytes lie. */
+
+/* Chunks decode to lines of all the file's channels one after the other (the order of names),
+ * each data.x1 - data.x0 samples long (tiles: the tile's width). Equal layouts and equal packed
+ * bytes give equal pictures. */
+typedef struct wf_exr_layout {
+    wf_box data;
+    exr_compression_t compression;
+    exr_pixel_type_t type[4];    /* of the channels picked */
+    int channels;                /* 3 or 4 */
+    int tile_width, tile_height; /* 0: scanlines */
+    int chunk_lines;             /* of a scanline chunk, or a tile */
+    size_t before[4];            /* bytes of a pixel that lie before the channel picked */
+    size_t pixel_bytes;          /* of all channels */
+    uint64_t channel_hash;       /* of the names and kinds of all channels */
+} wf_exr_layout;
+
+struct wf_subframe {
+    char *path;
+    int part;
+    const char *layer; /* borrowed; NULL: the part's own R G B */
+    wf_image_info info;
+    wf_exr_layout layout;
+    exr_context_t exr; /* NULL: read whole, through OpenImageIO */
+    bool opened;       /* the header has been read */
+    char trouble[256]; /* what was wrong with it */
+    float *whole;      /* [channels][height][width] of the data window */
+};
+
+/* Opens an EXR; *needs_module means that its compression must be read by other means, with
+ * everything but the pixels known. */
+weft_status wf_exr_open(wf_subframe *subframe, const wf_source_options *options, int part,
+                        bool *needs_module, weft_error *err);
+
+/* Whether the file starts like an EXR. False too if it cannot be read. */
+bool wf_is_exr(const char *path);
+
+/* What OpenEXRCore's status means, for people. */
+const char *wf_exr_trouble(exr_result_t result);
+
+#endif

@@ -1,0 +1,213 @@
+#include "convert/read/video.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "convert/base/names.h"
+#include "convert/media/y4m.h"
+#include "convert/read/sequence.h"
+#include "convert/read/subframe.h"
+#include "convert/read/video_kinds.h"
+
+/* ---- Which raster it is ---- */
+
+static bool fits(const wf_raster *r, const wf_video_info *info, const wf_video_label *label) {
+    bool as_labelled = label->interlaced
+                           ? r->scan == WF_INTERLACED && r->top_first == label->top_first
+                           : r->scan == WF_PROGRESSIVE;
+    return r->width_px == info->width_px && r->lines == info->lines &&
+           (!wf_ratio_given(label->rate) || wf_ratio_equal(r->frame_rate, label->rate)) &&
+           (!label->scan_known || as_labelled);
+}
+
+/* Progressive frames of the standard definition rasters have no name of their own. */
+static bool fits_whole(const wf_raster *r, const wf_video_info *info,
+                       const wf_video_label *label) {
+    wf_video_label as_fields = *label;
+    as_fields.scan_known = false;
+    return label->scan_known && !label->interlaced && r->scan == WF_INTERLACED &&
+           fits(r, info, &as_fields);
+}
+
+static void make_raster(wf_video_info *info, const wf_video_label *label) {
+    wf_rational rate = wf_ratio_given(label->rate) ? label->rate : wf_ratio(25, 1);
+    bool given = wf_ratio_given(label->aspect) && label->aspect.num > 0;
+    info->raster = (wf_raster){.width_px = info->width_px,
+                               .lines = info->lines,
+                               .frame_rate = rate,
+                               .scan = label->scan_known && !label->interlaced ? WF_PROGRESSIVE
+                                                                               : WF_INTERLACED,
+                               .top_first = label->scan_known ? label->top_first : true,
+                               .pixel_aspect = given ? label->aspect : wf_ratio(1, 1),
+                               .matrix = WF_709};
+    snprintf(info->raster.name, sizeof info->raster.name, "%dx%d@%" PRId64 "/%" PRId64 "%s",
+             info->width_px, info->lines, rate.num, rate.den,
+             info->raster.scan == WF_PROGRESSIVE ? "p" : "i");
+}
+
+/* The raster's 16:9 sister where the pixels say so, else the raster with these pixels. */
+static void take_aspect(wf_raster *raster, wf_rational aspect) {
+    char name[sizeof raster->name + sizeof "-wide"], why[256];
+    wf_raster wide;
+    if (!wf_ratio_given(aspect) || aspect.num <= 0 ||
+        wf_ratio_equal(aspect, raster->pixel_aspect))
+        return;
+    snprintf(name, sizeof name, "%s-wide", raster->name);
+    if (wf_raster_parse(name, &wide, why, sizeof why) &&
+        wf_ratio_equal(aspect, wide.pixel_aspect))
+        memcpy(raster->name, wide.name, sizeof raster->name);
+    raster->pixel_aspect = aspect;
+}
+
+static void find_raster(wf_video_info *info, const wf_video_label *label) {
+    char why[256];
+    wf_raster stated;
+    if (label->raster && *label->raster &&
+        wf_raster_parse(label->raster, &stated, why, sizeof why) &&
+        fits(&stated, info, label)) {
+        info->raster = stated;
+        info->scan_known = true;
+        return;
+    }
+    const wf_raster *r, *found = NULL;
+    for (size_t i = 0; !found && (r = wf_raster_at(i)); i++)
+        if (fits(r, info, label)) found = r;
+    for (size_t i = 0; !found && (r = wf_raster_at(i)); i++)
+        if (fits_whole(r, info, label)) found = r;
+    if (!found) {
+        make_raster(info, label);
+        return;
+    }
+    info->raster = *found;
+    if (!fits(found, info, label)) info->raster.scan = WF_PROGRESSIVE;
+    take_aspect(&info->raster, label->aspect);
+}
+
+static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_error *err) {
+    const wf_raster *given = v->options.raster;
+    wf_video_info *info = &v->info;
+    info->scan_known = label->scan_known || given;
+    info->transfer = label->transfer;
+    if (!given) {
+        find_raster(info, label);
+        if (label->matrix_known) info->raster.matrix = label->matrix;
+        return WEFT_OK;
+    }
+    info->raster = *given;
+    if (given->width_px == info->width_px && given->lines == info->lines) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: its pictures are %dx%d, and --raster %s is %dx%d; leave --raster out, "
+                   "or give one of that size",
+                   v->path, info->width_px, info->lines, given->name, given->width_px,
+                   given->lines);
+}
+
+/* ---- Opening ---- */
+
+static bool is_y4m(const char *path) {
+    char head[sizeof WF_Y4M_MAGIC] = "";
+    FILE *file = fopen(path, "rb");
+    size_t got = file ? fread(head, 1, sizeof head - 1, file) : 0;
+    if (file) fclose(file);
+    return got == sizeof head - 1 && !strcmp(head, WF_Y4M_MAGIC);
+}
+
+static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_error *err) {
+    struct stat about;
+    bool there = !stat(path, &about);
+    *kind = &wf_video_libav;
+    /* What cannot be read twice is not looked into. */
+    if (!strcmp(path, "-") || (there && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)))
+        *kind = &wf_video_y4m;
+    else if (there ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
+        *kind = &wf_video_pictures;
+    else if (!there)
+        return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
+    else if (wf_name_ends_in(path, ".v210") || wf_name_ends_in(path, ".uyvy"))
+        *kind = &wf_video_raw;
+    else if (!about.st_size)
+        return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
+    else if (is_y4m(path))
+        *kind = &wf_video_y4m;
+    else if (wf_is_exr(path) ||
+             (wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif")))
+        *kind = &wf_video_pictures;
+    return WEFT_OK;
+}
+
+/* Those who measure keep twelve floats a pixel, more or less. */
+static weft_status check_memory(const wf_video *v, weft_error *err) {
+    double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
+    if (bytes <= (double)v->options.max_memory_bytes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "%s: frames of %dx%d take %.0f MB, and --max-memory allows %zu MB; allow more", v->path,
+        v->info.width_px, v->info.lines, bytes / (1 << 20), v->options.max_memory_bytes >> 20);
+}
+
+static weft_status make_planes(wf_video *v, weft_error *err) {
+    const wf_video_info *info = &v->info;
+    for (int p = 0; p < 3; p++) {
+        int across = p ? info->across : 1, down = p ? info->down : 1;
+        int width = (info->width_px + across - 1) / across;
+        int lines = (info->lines + down - 1) / down;
+        v->frame.width_px[p] = width;
+        v->frame.lines[p] = lines;
+        v->frame.plane[p] = calloc((size_t)width * (size_t)lines, sizeof(float));
+        if (!v->frame.plane[p]) return wf_video_no_memory(v, err);
+    }
+    return WEFT_OK;
+}
+
+weft_status wf_video_open(const char *path, const wf_video_options *options, wf_video **out,
+                          weft_error *err) {
+    const wf_video_kind *kind;
+    weft_status status = find_kind(path, &kind, err);
+    if (status) return status;
+    wf_video *v = calloc(1, sizeof *v);
+    if (v) v->path = strdup(path);
+    if (!v || !v->path) {
+        free(v);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    }
+    v->kind = kind;
+    v->options = *options;
+    v->info = (wf_video_info){.planes = 3, .across = 1, .down = 1, .frames = -1};
+    v->frame.index = -1;
+    wf_video_label label = {0};
+    status = kind->open(v, &label, err);
+    if (!status) status = settle_raster(v, &label, err);
+    if (!status) status = check_memory(v, err);
+    if (!status) status = make_planes(v, err);
+    if (status)
+        wf_video_close(v);
+    else
+        *out = v;
+    return status;
+}
+
+const wf_video_info *wf_video_info_of(const wf_video *video) {
+    return &video->info;
+}
+
+weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_error *err) {
+    bool more = false;
+    *frame = NULL;
+    video->frame.index++;
+    weft_status status = video->kind->next(video, &more, err);
+    if (!status && more) *frame = &video->frame;
+    return status;
+}
+
+void wf_video_close(wf_video *video) {
+    if (!video) return;
+    video->kind->close(video);
+    for (int p = 0; p < 3; p++) free(video->frame.plane[p]);
+    free(video->path);
+    free(video);
+}

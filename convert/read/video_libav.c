@@ -1,0 +1,37 @@
+/* Video of any container, through the libav module. */
+#include <string.h>
+
+#include "convert/base/module.h"
+#include "convert/media/libav/libav.h"
+#include "convert/read/video_kinds.h"
+
+/* From here on the video is the module's. */
+static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
+    void *symbol;
+    wf_libav_kind_fn *kind;
+    weft_error why = {""};
+    if (!wf_module_built("libav"))
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: it is neither Y4M nor a picture, and not named .v210 or .uyvy; other "
+            "video is read through libav, which this weft was built without: install "
+            "libavformat-dev and libavcodec-dev and build it again",
+            v->path);
+    weft_status status = wf_module_symbol("libav", "wf_libav_kind", &symbol, &why);
+    if (status) return wf_fail(err, status, "%s: %s", v->path, why.text);
+    memcpy(&kind, &symbol, sizeof kind);
+    v->kind = kind();
+    return v->kind->open(v, label, err);
+}
+
+static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
+    (void)v, (void)err;
+    *more = false;
+    return WEFT_OK;
+}
+
+static void libav_close(wf_video *v) {
+    (void)v;
+}
+
+const wf_video_kind wf_video_libav = {libav_open, libav_next, libav_close};

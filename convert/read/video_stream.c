@@ -1,0 +1,241 @@
+/* Streams of frames read back: Y4M, and raw v210 and uyvy. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "convert/media/y4m.h"
+#include "convert/read/video_kinds.h"
+
+typedef struct stream stream;
+
+/* Codes of a packed line to one array a plane. */
+typedef void unpack_fn(const uint8_t *packed, int width_px, uint16_t *const code[3]);
+
+struct stream {
+    FILE *file;
+    uint8_t *bytes;
+    uint16_t *code[3]; /* [width] each, of one block */
+    size_t frame_bytes, line_bytes;
+    unpack_fn *unpack; /* raw formats */
+    wf_y4m header;
+};
+
+static weft_status failed(const wf_video *v, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(errno));
+}
+
+static weft_status open_file(wf_video *v, weft_error *err) {
+    stream *s = v->state = calloc(1, sizeof *s);
+    if (!s) return wf_video_no_memory(v, err);
+    s->file = strcmp(v->path, "-") ? fopen(v->path, "rb") : stdin;
+    return s->file ? WEFT_OK : failed(v, err);
+}
+
+/* Room for a frame's bytes and a line's codes. */
+static weft_status make_room(wf_video *v, weft_error *err) {
+    stream *s = v->state;
+    size_t width = (size_t)v->info.width_px + 6; /* a whole group of v210 at the end */
+    s->bytes = malloc(s->frame_bytes);
+    s->code[0] = malloc(3 * width * sizeof *s->code[0]);
+    if (!s->bytes || !s->code[0]) return wf_video_no_memory(v, err);
+    s->code[1] = s->code[0] + width;
+    s->code[2] = s->code[1] + width;
+    return WEFT_OK;
+}
+
+static void close_stream(wf_video *v) {
+    stream *s = v->state;
+    if (!s) return;
+    if (s->file && s->file != stdin) fclose(s->file);
+    free(s->bytes);
+    free(s->code[0]);
+    free(s);
+}
+
+/* One frame's bytes. */
+static weft_status read_bytes(wf_video *v, weft_error *err) {
+    stream *s = v->state;
+    size_t got = fread(s->bytes, 1, s->frame_bytes, s->file);
+    if (got == s->frame_bytes) return WEFT_OK;
+    if (ferror(s->file)) return failed(v, err);
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: the file ends within frame %" PRId64
+                   ", after %zu of its %zu bytes; write "
+                   "it again",
+                   v->path, v->frame.index, got, s->frame_bytes);
+}
+
+/* ---- Y4M ---- */
+
+static weft_status read_header(wf_video *v, weft_error *err) {
+    stream *s = v->state;
+    char line[WF_Y4M_LINE];
+    bool whole = fgets(line, sizeof line, s->file) && strchr(line, '\n') &&
+                 !strncmp(line, WF_Y4M_MAGIC " ", sizeof WF_Y4M_MAGIC);
+    if (whole) *strchr(line, '\n') = '\0';
+    if (!whole || !wf_y4m_parse(line, &s->header))
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: it does not begin with a whole Y4M header: YUV4MPEG2 with W, H and F "
+            "in its first line",
+            v->path);
+    if (s->header.known) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its chroma is '%s'; known are 420, 422, 444, 411 and mono, and with p10, "
+        "p12 .. more bits",
+        v->path, s->header.chroma);
+}
+
+static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err) {
+    weft_status status = open_file(v, err);
+    if (!status) status = read_header(v, err);
+    if (status) return status;
+    stream *s = v->state;
+    const wf_y4m *h = &s->header;
+    wf_video_info *info = &v->info;
+    snprintf(info->format, sizeof info->format, "Y4M %s", h->chroma);
+    info->width_px = h->width_px;
+    info->lines = h->lines;
+    info->layout = WF_YCBCR;
+    info->bits = h->bits;
+    info->full_range = h->full_range;
+    info->planes = h->across ? 3 : 1;
+    info->across = h->across ? h->across : 1;
+    info->down = h->down ? h->down : 1;
+    s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
+    info->frames = wf_y4m_count(h, s->file, ftell(s->file));
+    *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
+                              .interlaced = h->order == 't' || h->order == 'b',
+                              .top_first = h->order == 't',
+                              .rate = h->rate,
+                              .aspect = h->aspect};
+    return make_room(v, err);
+}
+
+/* Lines of a plane: one or two bytes a code. */
+static const uint8_t *take_plane(wf_video *v, int p, const uint8_t *from) {
+    stream *s = v->state;
+    int width = v->frame.width_px[p];
+    bool wide = v->info.bits > 8;
+    for (int y = 0; y < v->frame.lines[p]; y++) {
+        for (int x = 0; x < width; x++)
+            s->code[0][x] =
+                wide ? (uint16_t)(from[2 * x] | from[2 * x + 1] << 8) : (uint16_t)from[x];
+        wf_video_take_codes(v, p, y, s->code[0]);
+        from += (size_t)width * (wide ? 2 : 1);
+    }
+    return from;
+}
+
+/* A frame begins with a line "FRAME", which may have parameters. */
+static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
+    stream *s = v->state;
+    char line[WF_Y4M_LINE];
+    *more = fgets(line, sizeof line, s->file) != NULL;
+    if (!*more) return ferror(s->file) ? failed(v, err) : WEFT_OK;
+    if (!strncmp(line, "FRAME", 5) && strchr(line, '\n')) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: frame %" PRId64
+                   " does not begin with the line FRAME: the file is damaged, "
+                   "or its header does not say what it holds",
+                   v->path, v->frame.index);
+}
+
+static weft_status y4m_next(wf_video *v, bool *more, weft_error *err) {
+    stream *s = v->state;
+    weft_status status = y4m_mark(v, more, err);
+    if (!status && *more) status = read_bytes(v, err);
+    if (status || !*more) return status;
+    const uint8_t *from = s->bytes;
+    for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
+    return WEFT_OK;
+}
+
+const wf_video_kind wf_video_y4m = {y4m_open, y4m_next, close_stream};
+
+/* ---- Raw frames ---- */
+
+static void uyvy_unpack(const uint8_t *packed, int width_px, uint16_t *const code[3]) {
+    for (int x = 0; x < width_px; x += 2, packed += 4) {
+        code[1][x / 2] = packed[0];
+        code[0][x] = packed[1];
+        code[2][x / 2] = packed[2];
+        code[0][x + 1] = packed[3];
+    }
+}
+
+static uint32_t word_at(const uint8_t *packed) {
+    return (uint32_t)packed[0] | (uint32_t)packed[1] << 8 | (uint32_t)packed[2] << 16 |
+           (uint32_t)packed[3] << 24;
+}
+
+/* Four words of three codes: Cb Y Cr, Y Cb Y, Cr Y Cb, Y Cr Y. */
+static void v210_unpack(const uint8_t *packed, int width_px, uint16_t *const code[3]) {
+    static const uint8_t plane[12] = {1, 0, 2, 0, 1, 0, 2, 0, 1, 0, 2, 0};
+    size_t at[3] = {0};
+    for (int x = 0; x < width_px; x += 6)
+        for (int i = 0; i < 12; i++) {
+            uint32_t word = word_at(packed + (size_t)x / 6 * 16 + (size_t)i / 3 * 4);
+            int p = plane[i];
+            code[p][at[p]++] = (uint16_t)(word >> 10 * (i % 3) & 1023);
+        }
+}
+
+static const struct {
+    const char *ending;
+    int bits, group_px, group_bytes; /* a line is made of whole groups */
+    unpack_fn *unpack;
+} raw_formats[] = {{".v210", 10, 48, 128, v210_unpack}, {".uyvy", 8, 2, 4, uyvy_unpack}};
+
+static weft_status raw_count(wf_video *v, weft_error *err) {
+    stream *s = v->state;
+    struct stat about;
+    if (fstat(fileno(s->file), &about)) return failed(v, err);
+    v->info.frames = about.st_size / (int64_t)s->frame_bytes;
+    if (about.st_size && about.st_size % (int64_t)s->frame_bytes == 0) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: %" PRId64 " bytes are not whole frames of %s, which take %zu each; raw "
+                   "video does not say what it is: --raster does",
+                   v->path, (int64_t)about.st_size, v->options.raster->name, s->frame_bytes);
+}
+
+static weft_status raw_open(wf_video *v, wf_video_label *label, weft_error *err) {
+    const wf_raster *r = v->options.raster;
+    if (!r) v->options.raster = r = wf_raster_at(0); /* as 'weft convert' presumes */
+    weft_status status = open_file(v, err);
+    if (status) return status;
+    stream *s = v->state;
+    size_t f = strcasecmp(strrchr(v->path, '.'), raw_formats[0].ending) ? 1 : 0;
+    size_t group = (size_t)raw_formats[f].group_px;
+    snprintf(v->info.format, sizeof v->info.format, "raw %s", raw_formats[f].ending + 1);
+    v->info.width_px = r->width_px;
+    v->info.lines = r->lines;
+    v->info.layout = WF_YCBCR;
+    v->info.bits = raw_formats[f].bits;
+    v->info.across = 2;
+    s->unpack = raw_formats[f].unpack;
+    s->line_bytes =
+        ((size_t)r->width_px + group - 1) / group * (size_t)raw_formats[f].group_bytes;
+    s->frame_bytes = s->line_bytes * (size_t)r->lines;
+    *label = (wf_video_label){.scan_known = true};
+    status = raw_count(v, err);
+    return status ? status : make_room(v, err);
+}
+
+static weft_status raw_next(wf_video *v, bool *more, weft_error *err) {
+    stream *s = v->state;
+    *more = v->frame.index < v->info.frames;
+    weft_status status = *more ? read_bytes(v, err) : WEFT_OK;
+    for (int y = 0; !status && *more && y < v->info.lines; y++) {
+        s->unpack(s->bytes + (size_t)y * s->line_bytes, v->info.width_px, s->code);
+        for (int p = 0; p < 3; p++) wf_video_take_codes(v, p, y, s->code[p]);
+    }
+    return status;
+}
+
+const wf_video_kind wf_video_raw = {raw_open, raw_next, close_stream};

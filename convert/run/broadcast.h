@@ -1,0 +1,21 @@
+#ifndef WF_CONVERT_RUN_BROADCAST_H
+#define WF_CONVERT_RUN_BROADCAST_H
+
+#include "color/composite/composite.h"
+#include "convert/job/job.h"
+
+/* What a television shows of video that reaches it as composite. */
+
+typedef struct wf_broadcast {
+    const wf_raster *raster;    /* of the input; NULL: as the file says */
+    const wf_tv_system *system; /* NULL: the raster's */
+    wf_tv_encoder encoder;
+    wf_tv_decoder decoder;
+} wf_broadcast;
+
+/* Takes the job's one input, video of any form that is read, through a coder and a decoder to
+ * its output, in the raster it has. Of the job, what concerns the output's codes and running is
+ * looked at; its raster becomes the input's. */
+weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error *err);
+
+#endif

@@ -1,0 +1,257 @@
+/* The door for renderers (weft.h, Samples from a renderer). */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/run/frames.h"
+
+struct weft_fields {
+    weft_job *job;
+    weft_field_fn *fn;
+    void *user;
+    wf_setup setup;
+    wf_frames *frames; /* NULL: the job has no output */
+    wf_finisher finisher;
+    wf_gather_desc desc;
+    wf_gather **gather; /* [end]: NULL before a field's first sample and after it is finished */
+    int64_t next, end;  /* the first that is not finished; how many there are */
+    size_t in_hand;     /* gathers */
+    float *rgb;         /* [lines][width][3] of a field */
+    float *line;        /* [3][width] */
+};
+
+/* ---- Life ---- */
+
+static weft_status open_output(weft_fields *f, int64_t frames, weft_error *err) {
+    if (!f->job->output) return WEFT_OK;
+    weft_status status = wf_setup_output(f->job, &f->setup, err);
+    f->setup.end_frame = frames;
+    if (status) return status;
+    wf_setup_count_frames(&f->setup);
+    status = wf_frames_new(f->job, &f->setup, 2, &f->frames, err);
+    if (!status) status = wf_finisher_new(f->frames, &f->finisher, err);
+    return status ? status : wf_frames_open(f->frames, err);
+}
+
+static weft_status make_room(weft_fields *f, weft_error *err) {
+    size_t row = 3 * (size_t)f->job->raster.width_px;
+    f->gather = calloc((size_t)f->end + 1, sizeof(wf_gather *));
+    f->rgb = malloc(row * (size_t)f->job->raster.lines * sizeof *f->rgb);
+    f->line = malloc(row * sizeof *f->line);
+    return f->gather && f->rgb && f->line
+               ? WEFT_OK
+               : wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
+}
+
+weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, void *user,
+                            weft_fields **out, weft_error *err) {
+    if (frames < 1 || frames > 1 << 24)
+        return wf_fail(err, WEFT_USAGE, "there must be from 1 to %d frames", 1 << 24);
+    if (job->cadence != WF_CADENCE_NONE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--cadence is for subframes and scenes, not for samples that are handed "
+                       "over, whose times count fields");
+    if (job->dry_run)
+        return wf_fail(err, WEFT_USAGE, "--dry-run is for weft_job_run: samples are pushed");
+    weft_fields *f = calloc(1, sizeof *f);
+    if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
+    *f = (weft_fields){.job = job, .fn = fn, .user = user};
+    f->desc = wf_setup_gather(job);
+    f->end = frames * wf_raster_fields_per_frame(&job->raster);
+    weft_status status = make_room(f, err);
+    if (!status) status = open_output(f, frames, err);
+    if (status) {
+        weft_fields_free(f);
+        return status;
+    }
+    *out = f;
+    return WEFT_OK;
+}
+
+void weft_fields_free(weft_fields *f) {
+    if (!f) return;
+    for (int64_t n = 0; f->gather && n < f->end; n++) wf_gather_free(f->gather[n]);
+    wf_frames_free(f->frames);
+    wf_finisher_free(&f->finisher);
+    wf_setup_free(&f->setup);
+    free(f->gather);
+    free(f->rgb);
+    free(f->line);
+    free(f);
+}
+
+/* ---- Samples ---- */
+
+static int lines_of(const weft_fields *f, int64_t field) {
+    return wf_raster_field_lines(&f->job->raster, wf_raster_parity(&f->job->raster, field));
+}
+
+static weft_status begin_field(weft_fields *f, int64_t field, weft_error *err) {
+    size_t bytes = wf_gather_bytes(&f->desc, lines_of(f, field));
+    if (f->gather[field]) return WEFT_OK;
+    if ((f->in_hand + 1) * bytes > f->job->max_memory_bytes)
+        return wf_fail(err, WEFT_NO_MEMORY,
+                       "%zu fields are in hand, and one more exceeds max-memory; say with "
+                       "weft_fields_until which are done",
+                       f->in_hand);
+    f->gather[field] = wf_gather_new(&f->desc, field, 0, lines_of(f, field));
+    if (!f->gather[field]) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a field");
+    f->in_hand++;
+    return WEFT_OK;
+}
+
+static void find_ends(const float *t, size_t count, double *low, double *high) {
+    *low = *high = (double)t[0];
+    for (size_t i = 1; i < count; i++) {
+        *low = fmin(*low, (double)t[i]);
+        *high = fmax(*high, (double)t[i]);
+    }
+}
+
+static bool all_finite(const weft_samples *s) {
+    const float *const arrays[] = {s->x, s->y, s->t, s->red, s->green, s->blue, s->weight};
+    bool finite = true;
+    for (size_t n = 0; n < sizeof arrays / sizeof *arrays; n++)
+        for (size_t i = 0; arrays[n] && i < s->count; i++)
+            finite &= isfinite(arrays[n][i]) != 0;
+    return finite;
+}
+
+weft_status weft_fields_push(weft_fields *f, const weft_samples *s, weft_error *err) {
+    const wf_samples block = {.count = s->count,
+                              .x = s->x,
+                              .y = s->y,
+                              .t = s->t,
+                              .field = s->field,
+                              .rgb = {s->red, s->green, s->blue},
+                              .weight = s->weight};
+    double low, high;
+    int64_t first, last;
+    if (!s->count) return WEFT_OK;
+    if (!all_finite(s)) return wf_fail(err, WEFT_USAGE, "a sample is not finite");
+    find_ends(s->t, s->count, &low, &high);
+    wf_gather_fields(&f->desc, s->field, low, high, &first, &last);
+    if (first <= last && last >= 0 && first < f->next)
+        return wf_fail(err, WEFT_USAGE,
+                       "samples from %g field periods after field %" PRId64
+                       " come late: field %" PRId64 " is finished",
+                       low, s->field, first);
+    for (int64_t n = first; n <= last && n < f->end; n++) {
+        weft_status status = begin_field(f, n, err);
+        if (status) return status;
+        wf_gather_add(f->gather[n], &block);
+    }
+    return WEFT_OK;
+}
+
+/* A row of a tile at a time. */
+weft_status weft_fields_push_tile(weft_fields *f, const weft_tile *tile, weft_error *err) {
+    size_t width = tile->width > 0 ? (size_t)tile->width : 0;
+    float *v = malloc((6 * width + 1) * sizeof *v);
+    weft_status status = v ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a tile");
+    double dx = (tile->x1 - tile->x0) / tile->width, dy = (tile->y1 - tile->y0) / tile->height;
+    for (int j = 0; !status && j < tile->height; j++) {
+        const float *row = tile->rgb + 3 * width * (size_t)j;
+        for (size_t i = 0; i < width; i++) {
+            v[i] = (float)(tile->x0 + ((double)i + 0.5) * dx);
+            v[width + i] = (float)(tile->y0 + (j + 0.5) * dy);
+            v[2 * width + i] = (float)tile->t;
+            for (size_t c = 0; c < 3; c++) v[(3 + c) * width + i] = row[3 * i + c];
+        }
+        const weft_samples samples = {width,         v,
+                                      v + width,     v + 2 * width,
+                                      tile->field,   v + 3 * width,
+                                      v + 4 * width, v + 5 * width,
+                                      NULL};
+        status = weft_fields_push(f, &samples, err);
+    }
+    free(v);
+    return status;
+}
+
+/* ---- Fields ---- */
+
+static weft_status fill_empty(const weft_fields *f, int64_t field, int line, int first,
+                              weft_error *err) {
+    const wf_gather *gather = f->gather[field];
+    int width = f->job->raster.width_px;
+    if (f->job->on_empty == WF_EMPTY_ERROR)
+        return wf_fail(err, WEFT_FAILED,
+                       "field %" PRId64 ", line %d, pixel %d: no sample reached it; give more "
+                       "samples, or set on-empty to nearest",
+                       field, line, first);
+    for (int i = first; i < width; i++) {
+        float near[3];
+        if (wf_gather_reached(gather, line, i)) continue;
+        if (!wf_gather_nearest(gather, line, i, near))
+            return wf_fail(err, WEFT_FAILED, "field %" PRId64 ": no sample reached it", field);
+        for (int c = 0; c < 3; c++) f->line[c * width + i] = near[c];
+    }
+    return WEFT_OK;
+}
+
+static void keep_line(const weft_fields *f, int64_t field, int line) {
+    int width = f->job->raster.width_px;
+    float *out = f->rgb + 3 * (size_t)line * (size_t)width, *rgb[3];
+    for (int i = 0; i < width; i++)
+        for (int c = 0; c < 3; c++) out[3 * i + c] = f->line[c * width + i];
+    if (!f->frames) return;
+    wf_frames_room(f->frames, &f->finisher, field, line, rgb);
+    for (int c = 0; c < 3; c++)
+        memcpy(rgb[c], f->line + c * width, (size_t)width * sizeof(float));
+}
+
+static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) {
+    size_t width = (size_t)f->job->raster.width_px;
+    float *const rgb[3] = {f->line, f->line + width, f->line + 2 * width};
+    for (int l = 0; l < lines_of(f, field); l++) {
+        int empty = wf_gather_line(f->gather[field], l, rgb);
+        weft_status status = empty < 0 ? WEFT_OK : fill_empty(f, field, l, empty, err);
+        if (status) return status;
+        keep_line(f, field, l);
+        if (f->frames) wf_frames_line(f->frames, &f->finisher, field, l);
+    }
+    return WEFT_OK;
+}
+
+static weft_status finish_field(weft_fields *f, weft_error *err) {
+    const wf_raster *r = &f->job->raster;
+    int64_t n = f->next;
+    int per_frame = wf_raster_fields_per_frame(r);
+    weft_status status = begin_field(f, n, err);
+    if (!status) status = finish_lines(f, n, err);
+    if (status) return status;
+    const weft_field field = {
+        n, wf_raster_parity(r, n), wf_raster_line_step(r), lines_of(f, n), r->width_px, f->rgb};
+    if (f->fn) f->fn(&field, f->user);
+    wf_gather_free(f->gather[n]);
+    f->gather[n] = NULL;
+    f->in_hand--;
+    f->next++;
+    bool whole = f->frames && n % per_frame == per_frame - 1;
+    return whole ? wf_frames_write(f->frames, n / per_frame, err) : WEFT_OK;
+}
+
+/* A field's window may hold samples before the instant of `field`: then it is not done. */
+static bool is_done(const weft_fields *f, int64_t n, int64_t field) {
+    static const double after[] = {[WF_START] = 1, [WF_CENTER] = 0.5, [WF_END] = 0};
+    int64_t instant = wf_raster_instant(&f->job->raster, n);
+    int64_t limit = wf_raster_instant(&f->job->raster, field);
+    double skew = wf_ratio_given(f->desc.skew) ? wf_ratio_value(f->desc.skew) : 0;
+    double end = after[f->desc.position] * wf_ratio_value(f->desc.width) + skew;
+    return (double)instant + end <= (double)limit && instant < limit;
+}
+
+weft_status weft_fields_until(weft_fields *f, int64_t field, weft_error *err) {
+    weft_status status = WEFT_OK;
+    while (!status && f->next < f->end && is_done(f, f->next, field))
+        status = finish_field(f, err);
+    return status;
+}
+
+weft_status weft_fields_finish(weft_fields *f, weft_error *err) {
+    weft_status status = WEFT_OK;
+    while (!status && f->next < f->end) status = finish_field(f, err);
+    return status || !f->frames ? status : wf_frames_commit(f->frames, err);
+}

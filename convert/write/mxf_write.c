@@ -1,0 +1,253 @@
+/* The file itself: partitions, edit units, index, random index pack. */
+#include "convert/write/mxf.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "convert/write/mxf_parts.h"
+
+/* What the generic container's elements start at multiples of. */
+#define GRID_BYTES 512
+
+#define ELEMENT(number)                                                                        \
+    { 0x060e2b3401020101, 0x0d01030100000000 | (number) }
+
+typedef enum partition_kind { HEADER = 2, BODY = 3, FOOTER = 4, PARTITIONS = 3 } partition_kind;
+
+struct wf_mxf {
+    wf_mxf_options options;
+    wf_outfile *file;
+    wf_uid seed;
+    wf_bytes bytes;       /* what is being put together */
+    uint64_t at;          /* bytes written */
+    int64_t frames;       /* written */
+    size_t picture_bytes; /* of an edit unit, with what fills it up */
+    size_t sound_bytes;   /* of each sound element, likewise */
+    size_t header_bytes;  /* of the header metadata */
+    uint64_t start[PARTITIONS];
+};
+
+/* ---- Sizes ---- */
+
+static size_t on_grid(size_t bytes) {
+    return (bytes + GRID_BYTES - 1) / GRID_BYTES * GRID_BYTES;
+}
+
+/* Samples of frames 0 .. n - 1, to the nearest: 1602, 1601, 1602, 1601, 1602 at 29.97. */
+static int64_t samples_before(const wf_mxf *m, int64_t n) {
+    wf_rational rate = m->options.raster->frame_rate;
+    return (2 * n * WF_MXF_SAMPLE_RATE * rate.den + rate.num) / (2 * rate.num);
+}
+
+/* Elements end in a fill item that makes them all equally long, so there is always one. */
+static size_t element_room(size_t value_bytes) {
+    const size_t key_and_length = 24;
+    return on_grid(key_and_length + value_bytes + WF_KLV_FILL_LEAST);
+}
+
+static size_t unit_bytes(const wf_mxf *m) {
+    return m->picture_bytes + m->sound_bytes * (size_t)m->options.silent_tracks;
+}
+
+static void plan_sizes(wf_mxf *m) {
+    wf_rational rate = m->options.raster->frame_rate;
+    size_t most_samples = (size_t)(WF_MXF_SAMPLE_RATE * rate.den / rate.num) + 1;
+    m->picture_bytes = element_room(m->options.frame_bytes);
+    m->sound_bytes = element_room(most_samples * WF_MXF_SAMPLE_BYTES);
+}
+
+uint32_t wf_mxf_picture_number(void) {
+    return 0x15010201;
+}
+
+uint32_t wf_mxf_sound_number(int tracks, int track) {
+    return 0x16000100 | (uint32_t)tracks << 16 | (uint32_t)(track + 1);
+}
+
+/* ---- Writing ---- */
+
+static weft_status flush(wf_mxf *m, weft_error *err) {
+    if (m->bytes.failed) return wf_fail(err, WEFT_NO_MEMORY, "no memory for an MXF partition");
+    weft_status status = wf_outfile_write(m->file, m->bytes.data, m->bytes.size, err);
+    m->at += m->bytes.size;
+    m->bytes.size = 0;
+    return status;
+}
+
+static void put_partition(wf_mxf *m, partition_kind kind, size_t index_bytes) {
+    wf_bytes *b = &m->bytes;
+    wf_ul containers[WF_MXF_CONTAINERS];
+    int count = wf_mxf_containers(&m->options, containers), n = (int)kind - HEADER;
+    /* Status 4: closed and complete. */
+    size_t begun =
+        wf_klv_begin(b, (wf_ul)WF_UL_PACK(0x0d01020101000400 | (uint64_t)kind << 16));
+    wf_bytes_number(b, 2, 1); /* version 1.3 */
+    wf_bytes_number(b, 2, 3);
+    wf_bytes_number(b, 4, GRID_BYTES);
+    wf_bytes_number(b, 8, m->start[n]);
+    wf_bytes_number(b, 8, n ? m->start[n - 1] : 0);
+    wf_bytes_number(b, 8, m->start[FOOTER - HEADER]);
+    wf_bytes_number(b, 8, kind == HEADER ? m->header_bytes : 0);
+    wf_bytes_number(b, 8, index_bytes);
+    wf_bytes_number(b, 4, index_bytes ? WF_MXF_INDEX_SID : 0);
+    wf_bytes_number(b, 8, 0); /* where in the body this partition begins */
+    wf_bytes_number(b, 4, kind == BODY ? WF_MXF_BODY_SID : 0);
+    wf_bytes_ul(b, wf_mxf_op1a);
+    wf_bytes_number(b, 4, (uint64_t)count);
+    wf_bytes_number(b, 4, 16);
+    for (int i = 0; i < count; i++) wf_bytes_ul(b, containers[i]);
+    wf_klv_end(b, begun);
+    wf_klv_fill(b, GRID_BYTES);
+}
+
+/* The identity of the file: what it is asked to be, and its first frame. */
+static wf_uid seed_of(const wf_mxf_options *o, const void *picture) {
+    char text[256];
+    wf_uid seed;
+    snprintf(text, sizeof text, "%.64s %d %d %.64s %" PRId64 " %d:%d:%d:%d %d %d",
+             o->raster->name, o->bits, o->full_range, o->color_space ? o->color_space : "",
+             o->frame_count, o->start.hours, o->start.minutes, o->start.seconds,
+             o->start.frames, o->start.drop_frame, o->silent_tracks);
+    uint64_t words = XXH3_64bits(text, strlen(text));
+    XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)&seed,
+                             XXH3_128bits_withSeed(picture, o->frame_bytes, words));
+    return seed;
+}
+
+static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err) {
+    wf_bytes metadata = {0};
+    m->seed = seed_of(&m->options, picture);
+    wf_mxf_metadata(&metadata, &m->options, m->seed);
+    wf_klv_fill(&metadata, GRID_BYTES);
+    m->header_bytes = metadata.size;
+    m->start[1] = GRID_BYTES + metadata.size;
+    m->start[2] = m->start[1] + GRID_BYTES + (uint64_t)m->options.frame_count * unit_bytes(m);
+    put_partition(m, HEADER, 0);
+    wf_bytes_put(&m->bytes, metadata.data, metadata.size);
+    m->bytes.failed |= metadata.failed;
+    free(metadata.data);
+    put_partition(m, BODY, 0);
+    return flush(m, err);
+}
+
+/* Key and length (ST 379 allows 4 to 9 bytes; frames of 2160 lines need more than three) and,
+ * after the value, what fills the element up to its room. */
+static void put_element_head(wf_bytes *b, uint32_t number, size_t value_bytes) {
+    wf_bytes_ul(b, (wf_ul)ELEMENT(number));
+    wf_bytes_number(b, 8, (uint64_t)0x87 << 56 | value_bytes);
+}
+
+static void put_silence(wf_mxf *m) {
+    static const uint8_t zeros[256];
+    int64_t samples = samples_before(m, m->frames + 1) - samples_before(m, m->frames);
+    size_t bytes = (size_t)samples * WF_MXF_SAMPLE_BYTES, missing;
+    int tracks = m->options.silent_tracks;
+    for (int track = 0; track < tracks; track++) {
+        size_t begun = m->bytes.size;
+        put_element_head(&m->bytes, wf_mxf_sound_number(tracks, track), bytes);
+        for (size_t put = 0; put < bytes; put += missing) {
+            missing = bytes - put < sizeof zeros ? bytes - put : sizeof zeros;
+            wf_bytes_put(&m->bytes, zeros, missing);
+        }
+        wf_klv_fill_to(&m->bytes, begun + m->sound_bytes);
+    }
+}
+
+weft_status wf_mxf_write(wf_mxf *m, const void *picture, weft_error *err) {
+    if (m->frames == m->options.frame_count)
+        return wf_fail(err, WEFT_FAILED,
+                       "MXF: a frame more than the %" PRId64 " that the header says",
+                       m->options.frame_count);
+    weft_status status = m->frames ? WEFT_OK : write_header(m, picture, err);
+    if (status) return status;
+    put_element_head(&m->bytes, wf_mxf_picture_number(), m->options.frame_bytes);
+    wf_bytes_put(&m->bytes, picture, m->options.frame_bytes);
+    wf_klv_fill_to(&m->bytes, m->picture_bytes);
+    put_silence(m);
+    m->frames++;
+    return flush(m, err);
+}
+
+/* ---- Footer ---- */
+
+/* One segment tells where every frame is, since edit units are all equally long. */
+static void put_index(wf_bytes *b, const wf_mxf *m) {
+    static const wf_ul key = WF_UL_SET(0x0d01020101100100);
+    int elements = 1 + m->options.silent_tracks;
+    size_t begun = wf_klv_begin(b, key);
+    wf_item_uid(b, 0x3c0a, wf_mxf_uid(m->seed, WF_MXF_INDEX_UID));
+    wf_item_rational(b, 0x3f0b, m->options.raster->frame_rate);
+    wf_item_number(b, 0x3f0c, 8, 0);
+    wf_item_number(b, 0x3f0d, 8, (uint64_t)m->frames);
+    wf_item_number(b, 0x3f05, 4, unit_bytes(m));
+    wf_item_number(b, 0x3f06, 4, WF_MXF_INDEX_SID);
+    wf_item_number(b, 0x3f07, 4, WF_MXF_BODY_SID);
+    wf_item_number(b, 0x3f08, 1, 0);
+    wf_item_array(b, 0x3f09, (uint32_t)elements, 6);
+    for (int i = 0; i < elements; i++) {
+        wf_bytes_number(b, 2, 0); /* not reordered; in the first slice */
+        wf_bytes_number(b, 4, i ? m->picture_bytes + (size_t)(i - 1) * m->sound_bytes : 0);
+    }
+    wf_klv_end(b, begun);
+    wf_klv_fill(b, GRID_BYTES);
+}
+
+static void put_random_index(wf_mxf *m) {
+    static const wf_ul key = WF_UL_PACK(0x0d01020101110100);
+    wf_bytes *b = &m->bytes;
+    size_t begun = wf_klv_begin(b, key);
+    for (int n = 0; n < PARTITIONS; n++) {
+        wf_bytes_number(b, 4, n == BODY - HEADER ? WF_MXF_BODY_SID : 0);
+        wf_bytes_number(b, 8, m->start[n]);
+    }
+    wf_bytes_number(b, 4, 16 + 4 + PARTITIONS * 12 + 4); /* of the whole pack */
+    wf_klv_end(b, begun);
+}
+
+weft_status wf_mxf_finish(wf_mxf *m, weft_error *err) {
+    wf_bytes index = {0};
+    if (m->frames != m->options.frame_count || !m->frames)
+        return wf_fail(err, WEFT_FAILED,
+                       "MXF: %" PRId64 " frames were written and the header says %" PRId64,
+                       m->frames, m->options.frame_count);
+    put_index(&index, m);
+    put_partition(m, FOOTER, index.size);
+    wf_bytes_put(&m->bytes, index.data, index.size);
+    m->bytes.failed |= index.failed;
+    free(index.data);
+    put_random_index(m);
+    return flush(m, err);
+}
+
+/* ---- Opening ---- */
+
+static weft_status check(const wf_mxf_options *o, weft_error *err) {
+    if (o->silent_tracks < 0 || o->silent_tracks > WF_MXF_SOUND_MOST)
+        return wf_fail(err, WEFT_USAGE, "MXF: %d tracks of sound; there can be 0 to %d",
+                       o->silent_tracks, WF_MXF_SOUND_MOST);
+    if (o->frame_bytes > UINT32_MAX / 2)
+        return wf_fail(err, WEFT_USAGE, "MXF: frames of %zu bytes are too large for its index",
+                       o->frame_bytes);
+    return WEFT_OK;
+}
+
+weft_status wf_mxf_open(const wf_mxf_options *options, wf_outfile *file, wf_mxf **out,
+                        weft_error *err) {
+    weft_status status = check(options, err);
+    if (status) return status;
+    wf_mxf *m = calloc(1, sizeof *m);
+    if (!m) return wf_fail(err, WEFT_NO_MEMORY, "no memory to write MXF");
+    m->options = *options;
+    m->file = file;
+    plan_sizes(m);
+    *out = m;
+    return WEFT_OK;
+}
+
+void wf_mxf_free(wf_mxf *m) {
+    free(m->bytes.data);
+    free(m);
+}

@@ -1,0 +1,135 @@
+/* Outputs in containers: what is asked for is held against the table of deliveries here, and
+ * written by the libav module. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/base/module.h"
+#include "convert/job/delivery.h"
+#include "convert/media/libav/libav.h"
+#include "convert/write/sink_kinds.h"
+
+struct wf_sink {
+    const wf_libav_writer *writer;
+    void *state;
+};
+
+static const wf_delivery *delivery_of(const wf_output_options *o) {
+    bool container;
+    return wf_delivery_for(o->output, o->codec, &container, NULL);
+}
+
+#define MOST_TRACKS 16
+
+static weft_status check_audio(const wf_output_options *o, const wf_delivery *d,
+                               weft_error *err) {
+    bool groups = d->one_audio_stream && o->silent_tracks % 4;
+    if (o->silent_tracks <= MOST_TRACKS && !groups &&
+        !(d->one_audio_stream && o->silent_tracks > 8))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%.500s: %s takes %s tracks of sound, not %d", o->output,
+                   d->kind.name, d->one_audio_stream ? "4 or 8" : "up to 16", o->silent_tracks);
+}
+
+static weft_status check(const wf_output_options *o, weft_error *err) {
+    const wf_delivery *d = delivery_of(o);
+    if (o->full_range && !d->full_range)
+        return wf_fail(err, WEFT_USAGE,
+                       "%.500s: readers take %s for narrow range; leave out --range full",
+                       o->output, d->kind.name);
+    if (!wf_delivery_form_for(d, o, err)) return WEFT_USAGE;
+    weft_status status = check_audio(o, d, err);
+    if (status || wf_module_built("libav")) return status;
+    return wf_fail(err, WEFT_FAILED,
+                   "%.500s: containers are written through libav, which this weft was built "
+                   "without: install libavformat-dev and libavcodec-dev and build it again, or "
+                   "write .y4m, .v210 or an image sequence",
+                   o->output);
+}
+
+static void tell(const wf_output_options *o, char *text, size_t size) {
+    const wf_delivery *d = delivery_of(o);
+    const wf_delivery_form *form = wf_delivery_form_for(d, o, NULL);
+    *text = '\0';
+    if (!form || !form->kept_lines) return;
+    wf_raster kept = wf_delivery_raster(form, o->raster);
+    snprintf(text, size,
+             "%.200s: %s takes %d lines: of %s, %d above and %d below are dropped, and what is "
+             "left is %s",
+             o->output, d->kind.name, form->kept_lines, o->raster->name, form->skip_lines,
+             o->raster->lines - form->kept_lines - form->skip_lines, wf_raster_order(&kept));
+}
+
+/* ---- Sizes ---- */
+
+static int64_t seconds_of(const wf_output_options *o, int64_t frames, int64_t rate) {
+    return (int64_t)((double)(frames * rate) / wf_ratio_value(o->raster->frame_rate));
+}
+
+int64_t wf_sound_bytes(const wf_output_options *o, int64_t frames) {
+    return o->silent_tracks * seconds_of(o, frames, 48000 * 3);
+}
+
+/* Of uncompressed frames and of those of a constant rate; 0: others. DNxHD's table of n Mb/s is
+ * that of 25 frames, and of 50 where there are 720 lines. */
+static int64_t picture_bytes(const wf_output_options *o, const wf_delivery *d,
+                             const wf_delivery_form *form, int64_t frames) {
+    if (!strcmp(d->encoder, "v210")) return frames * (int64_t)wf_v210_bytes(o);
+    if (d->constant) return seconds_of(o, frames, form->bit_rate / 8);
+    if (!strcmp(d->encoder, "dnxhd") && form->bit_rate)
+        return frames * (form->bit_rate / 8 / (form->lines == 720 ? 50 : 25));
+    return 0;
+}
+
+static wf_sink_size size(const wf_output_options *o, int64_t frames) {
+    const wf_delivery *d = delivery_of(o);
+    const wf_delivery_form *form = wf_delivery_form_for(d, o, NULL);
+    int64_t pictures = form ? picture_bytes(o, d, form, frames) : 0;
+    if (!pictures) return (wf_sink_size){0};
+    return (wf_sink_size){pictures + wf_sound_bytes(o, frames), WF_SIZE_ABOUT};
+}
+
+/* ---- Opening and writing ---- */
+
+static weft_status open_sink(const wf_output_options *o, wf_sink **out, weft_error *err) {
+    void *symbol;
+    wf_libav_writer_fn *writer;
+    weft_status status = check(o, err);
+    if (!status) status = wf_module_symbol("libav", "wf_libav_writer_of", &symbol, err);
+    if (status) return status;
+    memcpy(&writer, &symbol, sizeof writer);
+    wf_sink *s = calloc(1, sizeof *s);
+    if (!s) return wf_fail(err, WEFT_NO_MEMORY, "%.500s: out of memory", o->output);
+    s->writer = writer();
+    status = s->writer->open(o, delivery_of(o), &s->state, err);
+    if (status)
+        free(s);
+    else
+        *out = s;
+    return status;
+}
+
+static weft_status write_sink(wf_sink *s, const wf_frame *frame, weft_error *err) {
+    return s->writer->write(s->state, frame, err);
+}
+
+static weft_status commit(wf_sink *s, weft_error *err) {
+    weft_status status = s->writer->commit(s->state, err);
+    free(s);
+    return status;
+}
+
+static void abandon(wf_sink *s) {
+    s->writer->abandon(s->state);
+    free(s);
+}
+
+const wf_sink_ops wf_delivery_ops = {
+    .check = check,
+    .tell = tell,
+    .size = size,
+    .open = open_sink,
+    .write = write_sink,
+    .commit = commit,
+    .abandon = abandon,
+};

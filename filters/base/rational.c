@@ -1,0 +1,105 @@
+#include "filters/base/rational.h"
+
+#include <string.h>
+
+__extension__ typedef __int128 wide;
+
+static const wf_rational not_given = {0, 0};
+
+static wide common_divisor(wide a, wide b) {
+    while (b) {
+        wide rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a < 0 ? -a : a;
+}
+
+static bool fits(wide value) {
+    return value >= INT64_MIN && value <= INT64_MAX;
+}
+
+static wf_rational reduced(wide num, wide den) {
+    if (den == 0) return not_given;
+    wide divisor = common_divisor(num, den);
+    if (den < 0) divisor = -divisor;
+    num /= divisor;
+    den /= divisor;
+    return fits(num) && fits(den) ? (wf_rational){(int64_t)num, (int64_t)den} : not_given;
+}
+
+wf_rational wf_ratio(int64_t num, int64_t den) {
+    return reduced(num, den);
+}
+
+double wf_ratio_value(wf_rational r) {
+    return (double)r.num / (double)r.den;
+}
+
+bool wf_ratio_given(wf_rational r) {
+    return r.den != 0;
+}
+
+bool wf_ratio_equal(wf_rational a, wf_rational b) {
+    return (wide)a.num * b.den == (wide)b.num * a.den && (a.den == 0) == (b.den == 0);
+}
+
+wf_rational wf_ratio_mul(wf_rational a, wf_rational b) {
+    return reduced((wide)a.num * b.num, (wide)a.den * b.den);
+}
+
+wf_rational wf_ratio_div(wf_rational a, wf_rational b) {
+    return a.den && b.den ? reduced((wide)a.num * b.den, (wide)a.den * b.num) : not_given;
+}
+
+int64_t wf_ratio_floor_mul(wf_rational a, int64_t n) {
+    wide product = (wide)a.num * n / a.den;
+    return fits(product) ? (int64_t)product : INT64_MAX;
+}
+
+/* Reads digits onto *value; returns how many there were, or -1 if they do not fit. */
+static int read_digits(const char **text, int64_t *value) {
+    int count = 0;
+    for (; **text >= '0' && **text <= '9'; ++*text, count++)
+        if (__builtin_mul_overflow(*value, 10, value) ||
+            __builtin_add_overflow(*value, **text - '0', value))
+            return -1;
+    return count;
+}
+
+bool wf_ratio_parse(const char *text, wf_rational *out) {
+    int64_t num = 0, den = 1;
+    int digits = read_digits(&text, &num);
+    if (digits > 0 && (*text == '/' || *text == ':')) {
+        text++;
+        den = 0;
+        if (read_digits(&text, &den) < 1) return false;
+    } else if (digits >= 0 && *text == '.') {
+        text++;
+        int decimals = read_digits(&text, &num);
+        if (decimals < 1 || decimals > 9) return false;
+        while (decimals--) den *= 10;
+    } else if (digits < 1) {
+        return false;
+    }
+    wf_rational ratio = wf_ratio(num, den);
+    if (*text || !wf_ratio_given(ratio)) return false;
+    *out = ratio;
+    return true;
+}
+
+bool wf_rate_parse(const char *text, wf_rational *out) {
+    static const struct {
+        wf_rational said, meant;
+    } abbreviations[] = {
+        {{23976, 1000}, {24000, 1001}}, {{2398, 100}, {24000, 1001}},
+        {{2997, 100}, {30000, 1001}},   {{4795, 100}, {48000, 1001}},
+        {{47952, 1000}, {48000, 1001}}, {{5994, 100}, {60000, 1001}},
+        {{11988, 100}, {120000, 1001}},
+    };
+    if (!wf_ratio_parse(text, out)) return false;
+    if (!strchr(text, '.')) return true;
+    for (size_t i = 0; i < sizeof abbreviations / sizeof *abbreviations; i++)
+        if (wf_ratio_equal(*out, abbreviations[i].said)) *out = abbreviations[i].meant;
+    return true;
+}

@@ -1,0 +1,35 @@
+#ifndef WF_FILTERS_BASE_RATIONAL_H
+#define WF_FILTERS_BASE_RATIONAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* An exact ratio, den > 0 and reduced; den == 0 means "not given". Rates, times and widths are
+ * ratios so that field 10^7 of a 60000/1001 raster starts where it should. */
+typedef struct wf_rational {
+    int64_t num, den;
+} wf_rational;
+
+/* num/den reduced, den made positive; {0, 0} if den is 0 or the result does not fit. */
+wf_rational wf_ratio(int64_t num, int64_t den);
+
+double wf_ratio_value(wf_rational r);
+bool wf_ratio_given(wf_rational r);
+bool wf_ratio_equal(wf_rational a, wf_rational b);
+
+/* a * b and a / b; {0, 0} where the result does not fit in 64 bits or b is zero. */
+wf_rational wf_ratio_mul(wf_rational a, wf_rational b);
+wf_rational wf_ratio_div(wf_rational a, wf_rational b);
+
+/* floor(a * n), exact; n >= 0, a >= 0 and given. INT64_MAX where it does not fit. */
+int64_t wf_ratio_floor_mul(wf_rational a, int64_t n);
+
+/* "240", "480000/1001", "0.25" (up to nine decimals), "10:11". False if text is anything else
+ * or does not fit; *out is then untouched. */
+bool wf_ratio_parse(const char *text, wf_rational *out);
+
+/* As wf_ratio_parse, and the broadcast abbreviations 23.976 (23.98), 29.97, 47.95, 59.94,
+ * 119.88 mean the /1001 rates. */
+bool wf_rate_parse(const char *text, wf_rational *out);
+
+#endif

@@ -1,0 +1,17 @@
+#ifndef WF_FILTERS_BASE_SPELLING_H
+#define WF_FILTERS_BASE_SPELLING_H
+
+#include <stddef.h>
+
+/* Looks for the name that somebody who typed `text` most likely meant. Start with {.text =
+ * text}, offer every name there is, and read `best`: the closest by letters changed, added,
+ * left out or swapped, or NULL if none is close. */
+typedef struct wf_spelling {
+    const char *text;
+    const char *best; /* one of the candidates: theirs to own */
+    size_t distance;
+} wf_spelling;
+
+void wf_spelling_offer(wf_spelling *spelling, const char *candidate);
+
+#endif

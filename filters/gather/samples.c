@@ -1,0 +1,200 @@
+#include "filters/gather/samples_inside.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "filters/base/isa.h"
+
+/* Samples this near to the instant count where the window is one (resampling.md, Apertures). */
+#define INSTANT 0x1p-12
+
+/* ---- Windows ---- */
+
+/* Instants in field periods; segmented frames show both fields at one. */
+static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) {
+    return (double)(wf_raster_instant(d->raster, to) - wf_raster_instant(d->raster, from));
+}
+
+static double middle_of(const wf_gather_desc *d) {
+    static const double share[] = {[WF_START] = 0.5, [WF_CENTER] = 0, [WF_END] = -0.5};
+    return share[d->position] * wf_ratio_value(d->width);
+}
+
+static double skew_of(const wf_gather_desc *d) {
+    return wf_ratio_given(d->skew) ? wf_ratio_value(d->skew) : 0;
+}
+
+static double half_window(const wf_gather_desc *d) {
+    double tau = wf_ratio_value(d->width);
+    return tau > 0 ? tau / 2 : INSTANT;
+}
+
+void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double t1,
+                      int64_t *first, int64_t *last) {
+    double middle = middle_of(d), half = half_window(d);
+    double low = ceil(t0 - middle - half - skew_of(d)), high = floor(t1 - middle + half);
+    int64_t base = wf_raster_instant(d->raster, field);
+    *first = wf_raster_first_field(d->raster, base + (int64_t)low);
+    *last = wf_raster_first_field(d->raster, base + (int64_t)high + 1) - 1;
+    if (*first < 0) *first = 0;
+}
+
+void wf_gather_lines(const wf_gather_desc *d, int64_t field, double y0, double y1, int *first,
+                     int *end) {
+    double reach = d->aperture.reach_v;
+    int parity = wf_raster_parity(d->raster, field), step = wf_raster_line_step(d->raster);
+    int lines = wf_raster_field_lines(d->raster, parity);
+    double low = ceil((y0 - reach - 0.5 - parity) / step);
+    double high = floor((y1 + reach - 0.5 - parity) / step);
+    *first = low > 0 ? (low < lines ? (int)low : lines) : 0;
+    *end = high < lines - 1 ? (high >= 0 ? (int)high + 1 : 0) : lines;
+    if (*end < *first) *end = *first;
+}
+
+/* ---- Life ---- */
+
+size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
+    return (size_t)lines * (size_t)d->raster->width_px * sizeof(wf_pixel_sum);
+}
+
+wf_patch wf_gather_patch(const wf_gather_desc *d, int64_t field, const double x[2],
+                         const double y[2]) {
+    double reach = d->aperture.reach_u;
+    int width = d->raster->width_px;
+    double low = ceil(x[0] - reach - 0.5), high = floor(x[1] + reach - 0.5);
+    wf_patch p = {low > 0 ? (int)low : 0, high < width - 1 ? (int)high + 1 : width, 0, 0};
+    wf_gather_lines(d, field, y[0], y[1], &p.first, &p.end);
+    return p;
+}
+
+wf_gather *wf_gather_new(const wf_gather_desc *d, int64_t field, int first, int end) {
+    return wf_gather_new_patch(d, field, (wf_patch){0, d->raster->width_px, first, end});
+}
+
+wf_gather *wf_gather_new_patch(const wf_gather_desc *d, int64_t field, wf_patch patch) {
+    wf_gather *g = calloc(1, sizeof *g);
+    if (!g) return NULL;
+    *g = (wf_gather){.desc = *d, .field = field, .held = patch};
+    g->parity = wf_raster_parity(d->raster, field);
+    g->line_step = wf_raster_line_step(d->raster);
+    g->field_lines = wf_raster_field_lines(d->raster, g->parity);
+    g->tau = wf_ratio_value(d->width);
+    g->middle = middle_of(d);
+    g->half = half_window(d);
+    g->skew_a_line = skew_of(d) / d->raster->lines;
+    size_t pixels = (size_t)(patch.end - patch.first) * (size_t)(patch.right - patch.left);
+    g->sum = calloc(pixels + 1, sizeof *g->sum);
+    if (g->sum) return g;
+    free(g);
+    return NULL;
+}
+
+void wf_gather_free(wf_gather *g) {
+    if (!g) return;
+    free(g->sum);
+    free(g);
+}
+
+/* ---- Adding ---- */
+
+static wf_gather_fn *const levels[] = {
+    wf_gather_samples_v1,
+#if defined(__x86_64__)
+    wf_gather_samples_v3,
+    wf_gather_samples_v4,
+#endif
+};
+
+double wf_gather_apart(const wf_gather *g, int64_t field) {
+    return instants_apart(&g->desc, field, g->field);
+}
+
+void wf_gather_add(wf_gather *g, const wf_samples *samples) {
+    levels[wf_isa_levels() - 1](g, samples, wf_gather_apart(g, samples->field));
+}
+
+void wf_gather_fill(wf_gather *g, const wf_sample_tile *tile, const float rgb[3]) {
+    for (int line = g->held.first; line < g->held.end; line++) {
+        int row = g->parity + line * g->line_step;
+        if (row < tile->first || row >= tile->end) continue;
+        wf_pixel_sum *sum = wf_gather_sums(g, line);
+        for (int i = tile->left; i < tile->right; i++) {
+            sum[i].r += (double)rgb[0];
+            sum[i].g += (double)rgb[1];
+            sum[i].b += (double)rgb[2];
+            sum[i].weight += 1;
+        }
+    }
+}
+
+static wf_patch overlap(const wf_patch *a, const wf_patch *b) {
+    return (wf_patch){.left = a->left > b->left ? a->left : b->left,
+                      .right = a->right < b->right ? a->right : b->right,
+                      .first = a->first > b->first ? a->first : b->first,
+                      .end = a->end < b->end ? a->end : b->end};
+}
+
+void wf_gather_merge(wf_gather *g, const wf_gather *from) {
+    wf_patch both = overlap(&g->held, &from->held);
+    for (int line = both.first; line < both.end; line++) {
+        wf_pixel_sum *to = wf_gather_sums(g, line);
+        const wf_pixel_sum *add = wf_gather_sums(from, line);
+        for (int i = both.left; i < both.right; i++) {
+            to[i].r += add[i].r;
+            to[i].g += add[i].g;
+            to[i].b += add[i].b;
+            to[i].weight += add[i].weight;
+        }
+    }
+}
+
+/* ---- Finishing ---- */
+
+int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
+    const wf_pixel_sum *sum = wf_gather_sums(g, line);
+    int empty = -1;
+    for (int i = 0; i < g->desc.raster->width_px; i++) {
+        bool reached = sum[i].weight != 0;
+        double share = reached ? 1 / sum[i].weight : 0;
+        if (!reached && empty < 0) empty = i;
+        rgb[0][i] = (float)(sum[i].r * share);
+        rgb[1][i] = (float)(sum[i].g * share);
+        rgb[2][i] = (float)(sum[i].b * share);
+    }
+    return empty;
+}
+
+bool wf_gather_reached(const wf_gather *g, int line, int pixel) {
+    return wf_gather_sums(g, line)[pixel].weight != 0;
+}
+
+/* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
+static int nearest_in_line(const wf_gather *g, int line, int pixel) {
+    const wf_pixel_sum *sum = wf_gather_sums(g, line);
+    int width = g->desc.raster->width_px;
+    for (int d = 0; d < width; d++) {
+        if (pixel - d >= 0 && sum[pixel - d].weight != 0) return pixel - d;
+        if (pixel + d < width && sum[pixel + d].weight != 0) return pixel + d;
+    }
+    return -1;
+}
+
+bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
+    const wf_pixel_sum *best = NULL;
+    double best_distance = HUGE_VAL;
+    for (int l = g->held.first; l < g->held.end; l++) {
+        double down = (double)(l - line) * g->line_step;
+        if (down * down >= best_distance) continue;
+        int near = nearest_in_line(g, l, pixel);
+        double across = near - pixel, distance = down * down + across * across;
+        if (near < 0 || distance >= best_distance) continue;
+        best_distance = distance;
+        best = &wf_gather_sums(g, l)[near];
+    }
+    if (!best) return false;
+    rgb[0] = (float)(best->r / best->weight);
+    rgb[1] = (float)(best->g / best->weight);
+    rgb[2] = (float)(best->b / best->weight);
+    return true;
+}

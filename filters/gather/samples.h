@@ -1,0 +1,107 @@
+#ifndef WF_FILTERS_GATHER_SAMPLES_H
+#define WF_FILTERS_GATHER_SAMPLES_H
+
+#include "filters/aperture/aperture.h"
+#include "filters/raster/raster.h"
+
+/* Irregular samples (x, y, t, colour, weight) to fields (resampling.md, Weights): a pixel is
+ * sum(h w c) / sum(h w) over the samples that its aperture reaches. Samples may come in any
+ * order and number; a sample is added to every pixel that it reaches and need not be kept. */
+
+typedef struct wf_gather_desc {
+    const wf_raster *raster;
+    wf_aperture aperture;
+    wf_rational width; /* tau, field periods; 0: samples within 2^-12 of the instant count */
+    wf_position position;
+    wf_rational skew; /* 0..1; {0, 0}: 0 */
+} wf_gather_desc;
+
+/* A block of samples, one array for each property, borrowed. */
+typedef struct wf_samples {
+    size_t count;
+    const float *x, *y; /* raster coordinates: pixels, frame lines */
+    const float *t;     /* field periods after the instant of `field` */
+    int64_t field;
+    const float *rgb[3]; /* scene-linear, over the background */
+    const float *weight; /* NULL: 1 each */
+} wf_samples;
+
+/* How a raster is cut into rectangles of samples. */
+typedef struct wf_sample_tiling {
+    int count, width_px, rows;
+} wf_sample_tiling;
+
+/* One of them. */
+typedef struct wf_sample_tile {
+    int index;                   /* which, counted over the raster */
+    int left, right, first, end; /* pixels, frame rows */
+    const float *all; /* NULL, or: R, G, B of all in it and within a tile's size of it; there
+                         are no samples then */
+    bool still; /* at all times at which it is, its samples are the same, as counted from the
+                   instant of their field */
+    bool both;  /* and serve fields of both parities */
+} wf_sample_tile;
+
+/* Whoever takes samples. */
+typedef struct wf_receiver {
+    void *user;
+    void (*samples)(void *user, const wf_samples *samples);
+    /* NULL, or: a tile begins, whose samples follow. False: they are not wanted. */
+    bool (*tile)(void *user, const wf_sample_tile *tile);
+} wf_receiver;
+
+/* Lines first <= l < end of a field, pixels left <= i < right of each. */
+typedef struct wf_patch {
+    int left, right, first, end;
+} wf_patch;
+
+/* Sums of some lines of one field, in double. One thread at a time; gathers are independent.
+ * The bits depend on the order in which samples are added and gathers merged, and on nothing
+ * else: whoever shares the work among threads cuts the samples into runs that do not depend on
+ * the number of threads, and merges them in one order. */
+typedef struct wf_gather wf_gather;
+
+/* The lines of a field that samples of y0 <= y <= y1 can reach: first <= l < end, counted in
+ * the field. */
+void wf_gather_lines(const wf_gather_desc *desc, int64_t field, double y0, double y1,
+                     int *first, int *end);
+
+/* Fields whose windows can hold samples of t0 <= t <= t1 field periods after the instant of
+ * field: *first <= n <= *last; none if *first > *last. */
+void wf_gather_fields(const wf_gather_desc *desc, int64_t field, double t0, double t1,
+                      int64_t *first, int64_t *last);
+
+/* The pixels that samples of x0 <= x <= x1 and y0 <= y <= y1 can reach. */
+wf_patch wf_gather_patch(const wf_gather_desc *desc, int64_t field, const double x[2],
+                         const double y[2]);
+
+/* Lines first <= l < end of a field, or a patch of it, all sums 0. NULL when memory is out.
+ * desc is copied; the raster must outlive the gather. */
+wf_gather *wf_gather_new(const wf_gather_desc *desc, int64_t field, int first, int end);
+wf_gather *wf_gather_new_patch(const wf_gather_desc *desc, int64_t field, wf_patch patch);
+void wf_gather_free(wf_gather *gather); /* NULL is fine */
+size_t wf_gather_bytes(const wf_gather_desc *desc, int lines);
+
+/* Adds samples; those that reach no pixel that is held add nothing. */
+void wf_gather_add(wf_gather *gather, const wf_samples *samples);
+
+/* Adds a sample of weight 1 to each pixel whose middle lies in a rectangle, of a colour that
+ * all other samples that these pixels see have too. */
+void wf_gather_fill(wf_gather *gather, const wf_sample_tile *tile, const float rgb[3]);
+
+/* Adds the sums of `from` where they overlap; of the same field, or of one that is to look like
+ * it: of the same parity. */
+void wf_gather_merge(wf_gather *gather, const wf_gather *from);
+
+/* Line l as R, G, B of width_px samples. Returns -1, or the first pixel that no sample reached
+ * (or whose weights cancel); such pixels are 0 there. */
+int wf_gather_line(const wf_gather *gather, int line, float *const rgb[3]);
+
+/* Whether any sample reached a pixel. */
+bool wf_gather_reached(const wf_gather *gather, int line, int pixel);
+
+/* What pixel of line l takes from the nearest pixel of the gather that samples reached, by
+ * distance on the raster. False where no sample reached any. */
+bool wf_gather_nearest(const wf_gather *gather, int line, int pixel, float rgb[3]);
+
+#endif

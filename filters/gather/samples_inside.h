@@ -1,0 +1,36 @@
+#ifndef WF_FILTERS_GATHER_SAMPLES_INSIDE_H
+#define WF_FILTERS_GATHER_SAMPLES_INSIDE_H
+
+#include "filters/gather/samples.h"
+
+/* Between samples.c and the loops compiled for each instruction set. */
+
+/* Sums of one pixel. */
+typedef struct wf_pixel_sum {
+    double r, g, b, weight;
+} wf_pixel_sum;
+
+struct wf_gather {
+    wf_gather_desc desc;
+    int64_t field;
+    int parity, line_step, field_lines; /* of the field */
+    wf_patch held;
+    double tau, middle, half; /* of the window, field periods from the instant */
+    double skew_a_line;
+    wf_pixel_sum *sum; /* [held.end - held.first][held.right - held.left] */
+};
+
+/* How many instants of fields lie between a field and the gather's. */
+double wf_gather_apart(const wf_gather *gather, int64_t field);
+
+/* Adds samples; apart: instants from the field that they count in to the gather's. */
+typedef void wf_gather_fn(wf_gather *gather, const wf_samples *samples, double apart);
+
+/* The sums of a line: of pixel i at [i], where it is held. */
+static inline wf_pixel_sum *wf_gather_sums(const wf_gather *g, int line) {
+    return g->sum + (line - g->held.first) * (g->held.right - g->held.left) - g->held.left;
+}
+
+wf_gather_fn wf_gather_samples_v1, wf_gather_samples_v3, wf_gather_samples_v4;
+
+#endif

@@ -1,0 +1,63 @@
+#ifndef WF_FILTERS_RASTER_TIMING_H
+#define WF_FILTERS_RASTER_TIMING_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "filters/aperture/aperture.h"
+#include "filters/raster/raster.h"
+
+/* Which subframes a field's window meets, and by how much (resampling.md, Time). Everything is
+ * an integer count of one tick, so that a window that ends where a cell begins does not meet
+ * it, at field 0 as at field 10^7. */
+typedef struct wf_timing_desc {
+    const wf_raster *raster;
+    wf_rational subframe_rate; /* of the selected subframes, a second */
+    bool subframe_center;      /* cells lie about k/R instead of after it */
+    int64_t subframes;         /* in the sequence, missing ones included */
+    wf_rational width;         /* tau, field periods; under pulldown film frames */
+    wf_position position;
+    wf_rational skew; /* 0..1 */
+} wf_timing_desc;
+
+__extension__ typedef __int128 wf_ticks;
+
+typedef struct wf_timing {
+    wf_ticks tick_rate;    /* ticks a field period */
+    wf_ticks cell;         /* a subframe's cell */
+    wf_ticks cell_zero;    /* where cell 0 begins */
+    wf_ticks width, opens; /* the window, and where it opens from the field's instant */
+    wf_ticks skew_line;    /* delay of one frame line */
+    int64_t subframes;
+    const wf_raster *raster; /* the description's: which fields share an instant */
+} wf_timing;
+
+/* Subframes first <= k < first + count that a window meets. Never empty: a window that meets
+ * none takes the nearest one, and so does an instantaneous one (alone: its only weight is 1).
+ */
+typedef struct wf_window {
+    int64_t first, count;
+    bool alone;
+} wf_window;
+
+/* False with a reason if the ratios are too fine to share a tick. */
+bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, size_t why_size);
+
+/* Whole frames that the sequence gives: floor(K / R * frame rate), exactly. */
+int64_t wf_timing_frames(const wf_timing_desc *desc);
+
+/* The window of frame line `line` of a field; the line matters only under scan skew. */
+wf_window wf_timing_window(const wf_timing *timing, int64_t field, int line);
+
+/* The window of all lines of a raster of `lines` lines. */
+wf_window wf_timing_field(const wf_timing *timing, int64_t field, int lines);
+
+/* When the windows of all lines of a raster of `lines` lines open and close, in seconds. */
+void wf_timing_seconds(const wf_timing *timing, int64_t field, int lines, double *from,
+                       double *to);
+
+/* The part of cell k inside the window, in field periods from the window's centre. */
+void wf_timing_cell(const wf_timing *timing, int64_t field, int line, int64_t k, double *q0,
+                    double *q1);
+
+#endif

@@ -1,0 +1,33 @@
+#ifndef WF_FILTERS_RESAMPLE_ROWS_H
+#define WF_FILTERS_RESAMPLE_ROWS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The inner loops of the resampler, one table for each instruction set they are compiled for.
+ * Every table gives the same bits: products and sums are rounded separately in double, in the
+ * same order, whatever the vector width. */
+typedef struct wf_row_ops {
+    const char *name;
+    /* sum[i] += weight * pixel[i] */
+    void (*add_half)(double *sum, const uint16_t *pixel, double weight, size_t count);
+    void (*add_float)(double *sum, const float *pixel, double weight, size_t count);
+    /* sum[i] = a[i] + b[i]; b may be NULL: sum[i] = a[i] */
+    void (*set_rows)(double *sum, const float *a, const float *b, size_t count);
+    /* sum[i] += pixel[i] */
+    void (*add_row)(double *sum, const float *pixel, size_t count);
+    /* sum[i] += weight * row[i] */
+    void (*add_tap)(double *sum, const double *row, double weight, size_t count);
+    /* lane[z * lane_length + m] = (float)row[lanes * m + z] for all of count samples of row,
+     * and 0 in what remains of the lanes */
+    void (*split)(float *lane, const double *row, size_t lanes, size_t lane_length,
+                  size_t count);
+} wf_row_ops;
+
+/* The tables by index, slowest first; NULL past the last one this processor can run. */
+const wf_row_ops *wf_row_ops_at(size_t index);
+
+/* The fastest of them. */
+const wf_row_ops *wf_row_ops_best(void);
+
+#endif

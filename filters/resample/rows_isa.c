@@ -1,0 +1,102 @@
+/* Compiled once for each instruction set; WF_ISA names the table (filters/rows.c lists them).
+ */
+#include "filters/resample/rows.h"
+
+#include "filters/base/half.h"
+
+#if defined(__F16C__)
+#include <immintrin.h>
+#endif
+
+#ifndef WF_ISA
+#define WF_ISA v1
+#endif
+#define JOIN_(a, b) a##b
+#define JOIN(a, b)  JOIN_(a, b)
+#define TEXT_(a)    #a
+#define TEXT(a)     TEXT_(a)
+
+static inline float half_value(uint16_t half) {
+#if defined(__F16C__)
+    return _cvtsh_ss(half);
+#else
+    return wf_half_value(half);
+#endif
+}
+
+static void add_half(double *restrict sum, const uint16_t *restrict pixel, double weight,
+                     size_t count) {
+    size_t i = 0;
+#if defined(__AVX512F__)
+    __m512d w = _mm512_set1_pd(weight);
+    for (; i + 16 <= count; i += 16) {
+        __m512 value = _mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)(pixel + i)));
+        __m512d low = _mm512_cvtps_pd(_mm512_castps512_ps256(value));
+        __m512d high = _mm512_cvtps_pd(_mm512_extractf32x8_ps(value, 1));
+        low = _mm512_add_pd(_mm512_loadu_pd(sum + i), _mm512_mul_pd(w, low));
+        high = _mm512_add_pd(_mm512_loadu_pd(sum + i + 8), _mm512_mul_pd(w, high));
+        _mm512_storeu_pd(sum + i, low);
+        _mm512_storeu_pd(sum + i + 8, high);
+    }
+#elif defined(__F16C__)
+    __m256d w = _mm256_set1_pd(weight);
+    for (; i + 8 <= count; i += 8) {
+        __m256 value = _mm256_cvtph_ps(_mm_loadu_si128((const __m128i *)(pixel + i)));
+        __m256d low = _mm256_cvtps_pd(_mm256_castps256_ps128(value));
+        __m256d high = _mm256_cvtps_pd(_mm256_extractf128_ps(value, 1));
+        low = _mm256_add_pd(_mm256_loadu_pd(sum + i), _mm256_mul_pd(w, low));
+        high = _mm256_add_pd(_mm256_loadu_pd(sum + i + 4), _mm256_mul_pd(w, high));
+        _mm256_storeu_pd(sum + i, low);
+        _mm256_storeu_pd(sum + i + 4, high);
+    }
+#endif
+    for (; i < count; i++) sum[i] += weight * (double)half_value(pixel[i]);
+}
+
+static void add_float(double *restrict sum, const float *restrict pixel, double weight,
+                      size_t count) {
+    for (size_t i = 0; i < count; i++) sum[i] += weight * (double)pixel[i];
+}
+
+static void set_rows(double *restrict sum, const float *restrict a, const float *restrict b,
+                     size_t count) {
+    if (b)
+        for (size_t i = 0; i < count; i++) sum[i] = (double)a[i] + (double)b[i];
+    else
+        for (size_t i = 0; i < count; i++) sum[i] = (double)a[i];
+}
+
+static void add_row(double *restrict sum, const float *restrict pixel, size_t count) {
+    for (size_t i = 0; i < count; i++) sum[i] += (double)pixel[i];
+}
+
+static void add_tap(double *restrict sum, const double *restrict row, double weight,
+                    size_t count) {
+    for (size_t i = 0; i < count; i++) sum[i] += weight * row[i];
+}
+
+static void split(float *restrict lane, const double *restrict row, size_t lanes,
+                  size_t lane_length, size_t count) {
+    for (size_t z = 0; z < lanes; z++) {
+        float *out = lane + z * lane_length;
+        size_t length = count > z ? (count - z + lanes - 1) / lanes : 0;
+        if (lanes == 1)
+            for (size_t m = 0; m < length; m++) out[m] = (float)row[m];
+        else if (lanes == 2)
+            for (size_t m = 0; m < length; m++) out[m] = (float)row[2 * m + z];
+        else
+            for (size_t m = 0; m < length; m++) out[m] = (float)row[lanes * m + z];
+        for (size_t m = length; m < lane_length; m++) out[m] = 0;
+    }
+}
+
+const wf_row_ops JOIN(wf_row_ops_, WF_ISA);
+const wf_row_ops JOIN(wf_row_ops_, WF_ISA) = {
+    .name = TEXT(WF_ISA),
+    .add_half = add_half,
+    .add_float = add_float,
+    .set_rows = set_rows,
+    .add_row = add_row,
+    .add_tap = add_tap,
+    .split = split,
+};

@@ -1,0 +1,196 @@
+/* Windows and cells of time: closed forms, exactness at field 10^7, and what is nearest to
+ * nothing. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <cmocka.h>
+
+#include "filters/raster/timing.h"
+
+static wf_raster raster_of(const char *text) {
+    wf_raster raster;
+    char why[256];
+    if (!wf_raster_parse(text, &raster, why, sizeof why)) fail_msg("%s", why);
+    return raster;
+}
+
+static wf_timing timing_of(const wf_timing_desc *desc) {
+    wf_timing timing;
+    char why[512];
+    if (!wf_timing_init(&timing, desc, why, sizeof why)) fail_msg("%s", why);
+    return timing;
+}
+
+static wf_timing_desc eight_a_field(const wf_raster *raster) {
+    return (wf_timing_desc){.raster = raster,
+                            .subframe_rate = {480000, 1001},
+                            .subframes = INT64_C(1) << 40,
+                            .width = {1, 1},
+                            .skew = {0, 1}};
+}
+
+static void a_field_of_eight_subframes(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("525i");
+    wf_timing_desc desc = eight_a_field(&raster);
+    wf_timing timing = timing_of(&desc);
+    const int64_t fields[] = {0, 1, 15, 10000000, 100000000};
+    for (int n = 0; n < 5; n++) {
+        wf_window window = wf_timing_window(&timing, fields[n], 0);
+        assert_int_equal(window.first, 8 * fields[n]);
+        assert_int_equal(window.count, 8);
+        assert_false(window.alone);
+        for (int64_t k = 0; k < 8; k++) {
+            double q0, q1;
+            wf_timing_cell(&timing, fields[n], 0, window.first + k, &q0, &q1);
+            assert_true(q0 == (double)k / 8 - 0.5 && q1 == (double)(k + 1) / 8 - 0.5);
+        }
+    }
+}
+
+static void positions_and_widths(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("525i");
+    wf_timing_desc desc = eight_a_field(&raster);
+    const struct {
+        wf_position position;
+        wf_rational width;
+        bool center;
+        int64_t first, count; /* of field 10 */
+    } cases[] = {
+        {WF_START, {1, 2}, false, 80, 4}, {WF_CENTER, {1, 2}, false, 78, 4},
+        {WF_END, {1, 2}, false, 76, 4},   {WF_START, {2, 1}, false, 80, 16},
+        {WF_START, {1, 2}, true, 80, 5},  {WF_CENTER, {1, 2}, true, 78, 5},
+        {WF_START, {0, 1}, false, 80, 1}, {WF_END, {0, 1}, true, 80, 1},
+        {WF_START, {1, 3}, false, 80, 3}, {WF_CENTER, {1, 1000}, false, 79, 2},
+    };
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        desc.position = cases[n].position;
+        desc.width = cases[n].width;
+        desc.subframe_center = cases[n].center;
+        wf_timing timing = timing_of(&desc);
+        wf_window window = wf_timing_window(&timing, 10, 0);
+        assert_int_equal(window.first, cases[n].first);
+        assert_int_equal(window.count, cases[n].count);
+    }
+}
+
+/* What the cells of a window cover adds up to the window, at every ratio of rates. */
+static void cells_fill_the_window(void **state) {
+    (void)state;
+    const char *rasters[] = {"525i", "1080i50", "1080psf23.976", "720p60", "64x48@17i,bff"};
+    const wf_rational rates[] = {{24, 1},   {240, 1},      {480000, 1001},
+                                 {1000, 7}, {60000, 1001}, {97, 3}};
+    for (size_t r = 0; r < 5; r++)
+        for (size_t s = 0; s < 6; s++) {
+            wf_raster raster = raster_of(rasters[r]);
+            wf_timing_desc desc = {.raster = &raster,
+                                   .subframe_rate = rates[s],
+                                   .subframes = 100000,
+                                   .width = {7, 5},
+                                   .skew = {1, 3},
+                                   .position = WF_CENTER};
+            wf_timing timing = timing_of(&desc);
+            for (int64_t field = 2; field < 40; field += 5)
+                for (int line = 0; line < 40; line += 13) {
+                    wf_window window = wf_timing_window(&timing, field, line);
+                    double sum = 0;
+                    for (int64_t k = window.first; k < window.first + window.count; k++) {
+                        double q0, q1;
+                        wf_timing_cell(&timing, field, line, k, &q0, &q1);
+                        assert_true(q1 > q0);
+                        sum += q1 - q0;
+                    }
+                    assert_true(fabs(sum - 1.4) < 1e-12);
+                }
+        }
+}
+
+static void scan_skew_delays_lines(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("525i");
+    wf_timing_desc desc = eight_a_field(&raster);
+    desc.width = (wf_rational){0, 1};
+    desc.skew = (wf_rational){1, 1};
+    wf_timing timing = timing_of(&desc);
+    for (int line = 0; line < 486; line++)
+        assert_int_equal(wf_timing_window(&timing, 3, line).first, 24 + line * 8 / 486);
+    assert_int_equal(wf_timing_field(&timing, 3, 486).count, 8);
+}
+
+static void segmented_fields_share_an_instant(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("1080psf25");
+    wf_timing_desc desc = {.raster = &raster,
+                           .subframe_rate = {200, 1},
+                           .subframes = 80,
+                           .width = {1, 2},
+                           .skew = {0, 1}};
+    wf_timing timing = timing_of(&desc);
+    for (int64_t m = 0; m < 10; m++)
+        for (int64_t n = 2 * m; n < 2 * m + 2; n++) {
+            assert_int_equal(wf_timing_window(&timing, n, 0).first, 8 * m);
+            assert_int_equal(wf_timing_window(&timing, n, 0).count, 4);
+        }
+}
+
+static void windows_beyond_the_sequence_take_the_nearest(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("525i");
+    wf_timing_desc desc = eight_a_field(&raster);
+    desc.subframes = 16;
+    desc.position = WF_END;
+    wf_timing timing = timing_of(&desc);
+    wf_window before = wf_timing_window(&timing, 0, 0),
+              after = wf_timing_window(&timing, 99, 0);
+    assert_true(before.alone && before.first == 0 && before.count == 1);
+    assert_true(after.alone && after.first == 15 && after.count == 1);
+}
+
+static void whole_frames_of_a_sequence(void **state) {
+    (void)state;
+    const struct {
+        const char *raster;
+        wf_rational rate;
+        int64_t subframes, frames;
+    } cases[] = {
+        {"525i", {480000, 1001}, 128, 8}, {"525i", {480000, 1001}, 127, 7},
+        {"1080i50", {200, 1}, 128, 16},   {"720p60", {24, 1}, 24, 60},
+        {"525i", {480000, 1001}, 15, 0},  {"1080psf23.976", {24000, 1001}, 100000, 100000},
+    };
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        wf_raster raster = raster_of(cases[n].raster);
+        wf_timing_desc desc = {
+            .raster = &raster, .subframe_rate = cases[n].rate, .subframes = cases[n].subframes};
+        assert_int_equal(wf_timing_frames(&desc), cases[n].frames);
+    }
+}
+
+static void ratios_too_fine_are_refused(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("1080i59.94");
+    wf_timing_desc desc = eight_a_field(&raster);
+    desc.subframe_rate = (wf_rational){INT64_C(1) << 40, 999999937};
+    desc.width = (wf_rational){1, 999999937};
+    desc.skew = (wf_rational){1, 999999929};
+    wf_timing timing;
+    char why[512] = "";
+    assert_false(wf_timing_init(&timing, &desc, why, sizeof why));
+    assert_true(why[0]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_field_of_eight_subframes),
+        cmocka_unit_test(positions_and_widths),
+        cmocka_unit_test(cells_fill_the_window),
+        cmocka_unit_test(scan_skew_delays_lines),
+        cmocka_unit_test(segmented_fields_share_an_instant),
+        cmocka_unit_test(windows_beyond_the_sequence_take_the_nearest),
+        cmocka_unit_test(whole_frames_of_a_sequence),
+        cmocka_unit_test(ratios_too_fine_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,140 @@
+#include "tests/unit/support/exr_write.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct writer {
+    exr_context_t exr;
+    const exr_part *part;
+    int index;
+    exr_encode_pipeline_t encoder;
+    bool started;
+    float *samples; /* [channels][lines][width] of a chunk */
+} writer;
+
+static exr_attr_box2i_t inclusive(wf_box box) {
+    return (exr_attr_box2i_t){.min = {.x = box.x0, .y = box.y0},
+                              .max = {.x = box.x1 - 1, .y = box.y1 - 1}};
+}
+
+static bool add_channels(const writer *w) {
+    char names[256];
+    bool fine = true;
+    snprintf(names, sizeof names, "%s", w->part->channels);
+    char *rest = NULL;
+    for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
+        fine &= !exr_add_channel(w->exr, w->index, name, w->part->type,
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    return fine;
+}
+
+static bool set_ratio(const writer *w, const char *name, const char *text) {
+    wf_rational ratio;
+    if (!text) return true;
+    if (!wf_ratio_parse(text, &ratio)) return false;
+    exr_attr_rational_t value = {(int32_t)ratio.num, (uint32_t)ratio.den};
+    return !exr_attr_set_rational(w->exr, w->index, name, &value);
+}
+
+static bool describe(writer *w) {
+    const exr_part *p = w->part;
+    char name[32];
+    snprintf(name, sizeof name, "part%d", w->index);
+    exr_attr_box2i_t data = inclusive(p->data), display = inclusive(p->display);
+    exr_attr_v2f_t center = {.x = 0, .y = 0};
+    bool fine = !exr_add_part(w->exr, p->name ? p->name : name,
+                              p->tile_width ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, NULL);
+    fine = fine &&
+           !exr_initialize_required_attr(w->exr, w->index, &display, &data,
+                                         p->pixel_aspect > 0 ? p->pixel_aspect : 1, &center, 1,
+                                         EXR_LINEORDER_INCREASING_Y, p->compression);
+    if (fine && p->tile_width)
+        fine = !exr_set_tile_descriptor(w->exr, w->index, (uint32_t)p->tile_width,
+                                        (uint32_t)p->tile_height, EXR_TILE_ONE_LEVEL,
+                                        EXR_TILE_ROUND_DOWN);
+    fine = fine && add_channels(w) && set_ratio(w, "framesPerSecond", p->rate) &&
+           set_ratio(w, "weft:time", p->time);
+    if (fine && p->subframe_rate)
+        fine = !exr_attr_set_string(w->exr, w->index, "weft:subframeRate", p->subframe_rate);
+    const exr_attr_timecode_t label = {.time_and_flags = p->timecode};
+    if (fine && p->timecode)
+        fine = !exr_attr_set_timecode(w->exr, w->index, "timeCode", &label);
+    return fine;
+}
+
+static bool write_chunk(writer *w, const exr_chunk_info_t *chunk, int x0, int y0) {
+    exr_encode_pipeline_t *e = &w->encoder;
+    exr_result_t result = w->started ? exr_encoding_update(w->exr, w->index, chunk, e)
+                                     : exr_encoding_initialize(w->exr, w->index, chunk, e);
+    if (result) return false;
+    float *to = w->samples;
+    for (int c = 0; c < e->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &e->channels[c];
+        channel->encode_from_ptr = (const uint8_t *)to;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = sizeof(float);
+        channel->user_pixel_stride = sizeof(float);
+        channel->user_line_stride = chunk->width * (int32_t)sizeof(float);
+        for (int y = 0; y < chunk->height; y++)
+            for (int x = 0; x < chunk->width; x++)
+                *to++ = w->part->value(w->part->user, c, x0 + x, y0 + y);
+    }
+    if (!w->started && exr_encoding_choose_default_routines(w->exr, w->index, e)) return false;
+    w->started = true;
+    return exr_encoding_run(w->exr, w->index, e) == EXR_ERR_SUCCESS;
+}
+
+static bool write_lines(writer *w) {
+    const exr_part *p = w->part;
+    int lines = 0;
+    exr_chunk_info_t chunk;
+    bool fine = !exr_get_scanlines_per_chunk(w->exr, w->index, &lines);
+    for (int y = p->data.y0; fine && y < p->data.y1; y += lines)
+        fine = !exr_write_scanline_chunk_info(w->exr, w->index, y, &chunk) &&
+               write_chunk(w, &chunk, p->data.x0, y);
+    return fine;
+}
+
+static bool write_tiles(writer *w) {
+    const exr_part *p = w->part;
+    bool fine = true;
+    exr_chunk_info_t chunk;
+    for (int j = 0; p->data.y0 + j * p->tile_height < p->data.y1; j++)
+        for (int i = 0; p->data.x0 + i * p->tile_width < p->data.x1; i++)
+            fine = fine && !exr_write_tile_chunk_info(w->exr, w->index, i, j, 0, 0, &chunk) &&
+                   write_chunk(w, &chunk, p->data.x0 + i * p->tile_width,
+                               p->data.y0 + j * p->tile_height);
+    return fine;
+}
+
+static bool write_part(writer *w) {
+    const exr_part *p = w->part;
+    size_t width = (size_t)(p->data.x1 - p->data.x0),
+           lines = p->tile_height > 256 ? (size_t)p->tile_height : 256;
+    w->samples = malloc(32 * width * lines * sizeof *w->samples);
+    if (!w->samples) return false;
+    bool fine = p->tile_width ? write_tiles(w) : write_lines(w);
+    if (w->started) exr_encoding_destroy(w->exr, &w->encoder);
+    w->encoder = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
+    w->started = false;
+    free(w->samples);
+    return fine;
+}
+
+bool exr_write(const char *path, const exr_part *parts, int count) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    writer w = {.encoder = EXR_ENCODE_PIPELINE_INITIALIZER};
+    if (exr_start_write(&w.exr, path, EXR_WRITE_FILE_DIRECTLY, &how)) return false;
+    bool fine = true;
+    for (w.index = 0; fine && w.index < count; w.index++) {
+        w.part = &parts[w.index];
+        fine = describe(&w);
+    }
+    fine = fine && !exr_write_header(w.exr);
+    for (w.index = 0; fine && w.index < count; w.index++) {
+        w.part = &parts[w.index];
+        fine = write_part(&w);
+    }
+    return !exr_finish(&w.exr) && fine;
+}

@@ -1,0 +1,11 @@
+#ifndef WF_TRACER_SCENE_SCRIPT_H
+#define WF_TRACER_SCENE_SCRIPT_H
+
+#include <limits.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Reads a regular file of at most `most` bytes; free it. NULL with a reason. */
+char *wf_script_read(const char *path, size_t most, size_t *size, char *why, size_t why_size);
+
+#endif

@@ -1,0 +1,40 @@
+#ifndef WF_TRACER_TRACE_LIGHT_H
+#define WF_TRACER_TRACE_LIGHT_H
+
+#include "tracer/trace/packet.h"
+
+/* What the rays of a packet see, each its own. Rays that see nothing, or what is unlit, take no
+ * light: their lit is 0. */
+typedef struct wf_surfaces {
+    const wf_material *material[WF_PACKET]; /* NULL: the background */
+    _Alignas(64) double color[3][WF_PACKET];
+    _Alignas(64) double lit[WF_PACKET], ambient[WF_PACKET], diffuse[WF_PACKET],
+        specular[WF_PACKET], shininess[WF_PACKET];
+    _Alignas(64) double light[3][WF_PACKET], shine[3][WF_PACKET];
+} wf_surfaces;
+
+/* Light on packets, compiled for each instruction set. Loops run over all WF_PACKET places. */
+typedef struct wf_light_ops {
+    /* Normals turned toward where rays come from: inner surfaces show their back. */
+    void (*face)(const wf_rays *rays, wf_points *normals);
+    /* Copies those lanes of `from` whose hit is of the solid. */
+    void (*choose)(const int64_t *hit, int64_t solid, const double *from, double *to);
+    /* How far off the surface rays start: share of the numbers' size. */
+    void (*off_surface)(const wf_rays *rays, const double *s, double share, double *off);
+    /* Way from points to the light: to a place, or against a direction. */
+    void (*ways)(const wf_points *points, const wf_points *place, wf_points *ways);
+    void (*against)(const wf_points *direction, wf_points *ways);
+    /* 1 where the light is before the surface and the surface takes light, else 0. */
+    void (*faces_light)(const double *lit, const wf_points *normals, const wf_points *ways,
+                        double *share);
+    /* Adds Lambert's and Blinn's light; ways of any length. */
+    void (*add)(const wf_rays *rays, const wf_points *normals, const wf_points *ways,
+                const double *share, const float color[3], bool shines, wf_surfaces *surfaces);
+    /* What is seen: color * light + shine, the color itself, or the background. */
+    void (*sum)(const wf_surfaces *surfaces, const double *seen, const float background[3],
+                double rgb[3][WF_PACKET]);
+} wf_light_ops;
+
+const wf_light_ops *wf_light_best(void);
+
+#endif

@@ -1,0 +1,138 @@
+/* Light on packets. Compiled once for each instruction set; WF_ISA names the table
+ * (tracer/light.c lists them). */
+#include <math.h>
+
+#include "tracer/trace/light.h"
+
+#ifndef WF_ISA
+#define WF_ISA v1
+#endif
+#define JOIN_(a, b) a##b
+#define JOIN(a, b)  JOIN_(a, b)
+#define TABLE       JOIN(wf_light_, WF_ISA)
+
+static void face(const wf_rays *restrict r, wf_points *restrict n) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = n->x[i], y = n->y[i], z = n->z[i];
+        double along = x * r->dx[i] + y * r->dy[i] + z * r->dz[i];
+        double sign = along > 0 ? -1 : 1;
+        n->x[i] = sign * x;
+        n->y[i] = sign * y;
+        n->z[i] = sign * z;
+    }
+}
+
+static void choose(const int64_t *restrict hit, int64_t solid, const double *restrict from,
+                   double *restrict to) {
+    for (int i = 0; i < WF_PACKET; i++) to[i] = hit[i] == solid ? from[i] : to[i];
+}
+
+static inline double largest(double x, double y, double z) {
+    double a = fabs(x), b = fabs(y), c = fabs(z);
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+static void off_surface(const wf_rays *restrict r, const double *restrict s, double share,
+                        double *restrict off) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double o = largest(r->ox[i], r->oy[i], r->oz[i]);
+        double d = largest(r->dx[i], r->dy[i], r->dz[i]);
+        off[i] = (o + (s[i] < HUGE_VAL ? s[i] : 0) * d) * share;
+    }
+}
+
+static void ways(const wf_points *restrict p, const wf_points *restrict place,
+                 wf_points *restrict way) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        way->x[i] = place->x[i] - p->x[i];
+        way->y[i] = place->y[i] - p->y[i];
+        way->z[i] = place->z[i] - p->z[i];
+    }
+}
+
+static void against(const wf_points *restrict d, wf_points *restrict way) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        way->x[i] = -d->x[i];
+        way->y[i] = -d->y[i];
+        way->z[i] = -d->z[i];
+    }
+}
+
+static void faces_light(const double *restrict lit, const wf_points *restrict n,
+                        const wf_points *restrict way, double *restrict share) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double along = n->x[i] * way->x[i] + n->y[i] * way->y[i] + n->z[i] * way->z[i];
+        share[i] = along > 0 ? lit[i] : 0;
+    }
+}
+
+/* One over the length, whatever its size: the largest component is brought near 1 first. */
+static inline double inverse_length(double x, double y, double z) {
+    double far = largest(x, y, z), share = far > 0 ? 1 / far : 0;
+    x *= share;
+    y *= share;
+    z *= share;
+    double square = x * x + y * y + z * z;
+    return square > 0 ? share / sqrt(square) : 0;
+}
+
+static void lambert(const wf_points *restrict n, const wf_points *restrict way,
+                    const double *restrict share, const float color[3],
+                    wf_surfaces *restrict f) {
+    double r = (double)color[0], g = (double)color[1], b = (double)color[2];
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = way->x[i], y = way->y[i], z = way->z[i];
+        double cosine = (n->x[i] * x + n->y[i] * y + n->z[i] * z) * inverse_length(x, y, z);
+        double light = share[i] > 0 ? share[i] * f->diffuse[i] * cosine : 0;
+        f->light[0][i] += light * r;
+        f->light[1][i] += light * g;
+        f->light[2][i] += light * b;
+    }
+}
+
+/* The cosine between the normal and half way between eye and light. */
+static void half_way(const wf_rays *restrict r, const wf_points *restrict n,
+                     const wf_points *restrict way, double *restrict cosine) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = way->x[i], y = way->y[i], z = way->z[i], to = inverse_length(x, y, z);
+        double dx = r->dx[i], dy = r->dy[i], dz = r->dz[i], from = inverse_length(dx, dy, dz);
+        double hx = x * to - dx * from, hy = y * to - dy * from, hz = z * to - dz * from;
+        double along = n->x[i] * hx + n->y[i] * hy + n->z[i] * hz;
+        cosine[i] = along * inverse_length(hx, hy, hz);
+    }
+}
+
+static void highlight(const double *cosine, const double *share, const float color[3],
+                      wf_surfaces *f) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double part = share[i] * f->specular[i];
+        if (!(part > 0) || !(cosine[i] > 0)) continue;
+        double shine = part * pow(cosine[i], f->shininess[i]);
+        for (int c = 0; c < 3; c++) f->shine[c][i] += shine * (double)color[c];
+    }
+}
+
+static void add(const wf_rays *r, const wf_points *n, const wf_points *way, const double *share,
+                const float color[3], bool shines, wf_surfaces *f) {
+    double cosine[WF_PACKET];
+    lambert(n, way, share, color, f);
+    if (!shines) return;
+    half_way(r, n, way, cosine);
+    highlight(cosine, share, color, f);
+}
+
+static void sum(const wf_surfaces *restrict f, const double *restrict seen,
+                const float background[3], double rgb[3][WF_PACKET]) {
+    for (int c = 0; c < 3; c++) {
+        double behind = (double)background[c], *restrict out = rgb[c];
+        const double *color = f->color[c], *light = f->light[c], *shine = f->shine[c];
+        for (int i = 0; i < WF_PACKET; i++) {
+            double own = f->lit[i] > 0 ? color[i] * light[i] + shine[i] : color[i];
+            out[i] = seen[i] < HUGE_VAL ? own : behind;
+        }
+    }
+}
+
+extern const wf_light_ops TABLE;
+const wf_light_ops TABLE = {face, choose, off_surface, ways, against, faces_light, add, sum};

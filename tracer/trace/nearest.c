@@ -1,0 +1,302 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tracer/trace/inside.h"
+
+/* ---- What can be met ---- */
+
+typedef struct finding {
+    const wf_tracer *t;
+    wf_trace_scratch *s;
+    const wf_packet *packet;
+    const wf_shaft *shaft;
+} finding;
+
+static bool meets_bounds(void *user, int solid, wf_stretch *stretch) {
+    const finding *f = user;
+    return wf_shaft_meets(f->shaft, &f->t->solid_bounds[solid], stretch);
+}
+
+/* In the solid's own space its box is tight, and a half-space has one. */
+static bool meets_form(void *user, int index, wf_stretch *stretch) {
+    const finding *f = user;
+    const wf_solid *solid = &f->t->scene->solids[index];
+    const wf_shaft *outer = wf_carry_shaft(f->t, f->s, f->packet, f->shaft, solid->op);
+    if (!outer) {
+        f->s->failed = true;
+        return false;
+    }
+    wf_shaft own = wf_shaft_place(&solid->inverse, outer);
+    wf_bounds box = wf_solid_type_of(solid->kind)->bounds(solid, f->t->scene->planes);
+    return wf_shaft_meets(&own, &box, stretch);
+}
+
+static wf_cull_scene cull_scene(finding *f) {
+    return (wf_cull_scene){f->t->scene->steps,
+                           f->t->parts,
+                           f->t->part_bounds,
+                           f->t->skip ? f->shaft : NULL,
+                           f->packet ? meets_form : meets_bounds,
+                           f};
+}
+
+static int find_parts(const finding *f, int *found) {
+    const wf_tracer *t = f->t;
+    int count = t->endless_count;
+    for (int n = 0; !t->skip && n < t->part_count; n++) found[n] = n;
+    if (!t->skip) return t->part_count;
+    memcpy(found, t->endless, (size_t)count * sizeof *found);
+    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, found + count);
+    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, found + count);
+}
+
+static void clear(wf_culls *c) {
+    c->part_count = c->step_count = c->solid_count = 0;
+}
+
+bool wf_find(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+             const wf_shaft *shaft, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    const wf_cull_scene scene = cull_scene(&f);
+    int count = find_parts(&f, s->found);
+    clear(out);
+    for (int n = 0; n < count; n++)
+        if (!wf_cull_part(&scene, s->found[n], s->stack, out)) return false;
+    wf_culls_sort(out);
+    return !s->failed;
+}
+
+bool wf_find_again(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                   const wf_shaft *shaft, const wf_culls *from, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    const wf_cull_scene scene = cull_scene(&f);
+    clear(out);
+    if (!wf_cull_again(&scene, from, s->stack, out)) return false;
+    wf_culls_sort(out);
+    return !s->failed;
+}
+
+/* ---- Hits ---- */
+
+typedef struct search {
+    const wf_tracer *t;
+    wf_trace_scratch *s;
+    const wf_packet *packet;
+    const wf_culls *culls;
+    wf_hits *hits;
+    _Alignas(64) double rounding[WF_PACKET];
+} search;
+
+static bool make_runs(const search *q, int solid, wf_runs *runs) {
+    const wf_solid *form = &q->t->scene->solids[solid];
+    const wf_rays *rays = wf_carry_rays(q->t, q->s, q->packet, form->op);
+    wf_rays local;
+    if (!rays) return false;
+    q->t->packet->place(&form->inverse, rays, &local);
+    if (wf_solid_type_of(form->kind)->most_runs < 2) q->t->packet->no_second_run(runs);
+    local.count = WF_PACKET;
+    q->t->intersect[form->kind](form, q->t->scene->planes, &local, runs);
+    return true;
+}
+
+static bool runs_room(wf_trace_scratch *s, size_t need) {
+    if (need <= s->runs_room) return true;
+    wf_runs *grown = aligned_alloc(64, 2 * need * sizeof *grown);
+    if (!grown) return false;
+    if (s->runs_room) memcpy(grown, s->runs, s->runs_room * sizeof *grown);
+    free(s->runs);
+    s->runs = grown;
+    s->runs_room = 2 * need;
+    return true;
+}
+
+static bool make_part_runs(const search *q, const wf_culled *part, size_t first) {
+    if (!runs_room(q->s, first + (size_t)part->solid_count)) return false;
+    for (int k = 0; k < part->solid_count; k++)
+        if (!make_runs(q, q->culls->solid[part->solid + (size_t)k],
+                       &q->s->runs[first + (size_t)k]))
+            return false;
+    return true;
+}
+
+static wf_csg program_of(const search *q, const wf_culled *part) {
+    return (wf_csg){q->culls->step + part->step, part->step_count, q->s->runs,
+                    q->culls->solid + part->solid, part->solid_count};
+}
+
+static bool try_part(search *q, const wf_culled *part) {
+    if (!make_part_runs(q, part, 0)) return false;
+    wf_csg csg = program_of(q, part);
+    if (part->solid_count == 1)
+        q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], q->hits);
+    else
+        q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
+    return true;
+}
+
+/* ---- Rays that start inside a union ---- */
+
+static bool starts_inside(search *q, const wf_culled *part, bool *inside) {
+    double start[WF_PACKET] = {0};
+    uint8_t in[WF_PACKET];
+    if (!make_part_runs(q, part, 0)) return false;
+    wf_csg csg = program_of(q, part);
+    q->t->csg->inside(&csg, start, q->s->in, in);
+    for (int i = 0; i < q->packet->rays.count; i++) *inside |= in[i];
+    return true;
+}
+
+/* All parts of one object as the union that they are. */
+static bool try_union(search *q, int object) {
+    const wf_culls *from = q->culls;
+    wf_culls whole = {0};
+    size_t steps = 1, solids = 1;
+    for (size_t n = 0; n < from->part_count; n++) {
+        if (q->t->parts[from->part[n].part].object != object) continue;
+        steps += (size_t)from->part[n].step_count;
+        solids += (size_t)from->part[n].solid_count;
+    }
+    whole.step = malloc(steps * sizeof *whole.step);
+    whole.solid = malloc(solids * sizeof *whole.solid);
+    whole.part = malloc(sizeof *whole.part);
+    wf_csg_entry *stack = aligned_alloc(64, (steps + 2) * sizeof *stack);
+    bool good = whole.step && whole.solid && whole.part && stack;
+    int operands = 0;
+    for (size_t n = 0; good && n < from->part_count; n++) {
+        const wf_culled *p = &from->part[n];
+        if (q->t->parts[p->part].object != object) continue;
+        for (int k = 0; k < p->step_count; k++) {
+            wf_step step = from->step[p->step + (size_t)k];
+            if (step.kind == WF_STEP_SOLID) step.count += (int)whole.solid_count;
+            whole.step[whole.step_count++] = step;
+        }
+        memcpy(whole.solid + whole.solid_count, from->solid + p->solid,
+               (size_t)p->solid_count * sizeof *whole.solid);
+        whole.solid_count += (size_t)p->solid_count;
+        operands++;
+    }
+    if (good) {
+        if (operands > 1) whole.step[whole.step_count++] = (wf_step){WF_STEP_UNION, operands};
+        wf_culled all = {0, 0, 0, 0, (int)whole.step_count, (int)whole.solid_count};
+        q->culls = &whole;
+        good = make_part_runs(q, &all, 0);
+        wf_csg csg = program_of(q, &all);
+        if (good) q->t->csg->nearest(&csg, q->rounding, stack, q->hits);
+        q->culls = from;
+    }
+    free(stack);
+    wf_culls_free(&whole);
+    return good;
+}
+
+/* The object, of several parts, that a ray starts inside of; -1: none. Rays start inside of one
+ * at most that matters: where two objects overlap each has its own surfaces. */
+static bool find_around(search *q, int after, int *object) {
+    int found = -1;
+    for (size_t n = 0; n < q->culls->part_count; n++) {
+        const wf_culled *part = &q->culls->part[n];
+        int of = q->t->parts[part->part].object;
+        bool inside = false;
+        if (part->near > 0 || of <= after || !q->t->sibling[of] || (found >= 0 && of >= found))
+            continue;
+        if (!starts_inside(q, part, &inside)) return false;
+        if (inside) found = of;
+    }
+    *object = found;
+    return true;
+}
+
+/* ---- Together ---- */
+
+static bool is_around(const int *around, int count, int object) {
+    for (int k = 0; k < count; k++)
+        if (around[k] == object) return true;
+    return false;
+}
+
+#define MOST_AROUND 8
+
+static bool nearest_of(search *q, bool whole) {
+    const wf_tracer *t = q->t;
+    int around[MOST_AROUND], count = 0, object = -1;
+    t->packet->rounding(&q->packet->rays, WF_ROUNDING, q->rounding);
+    while (whole && count < MOST_AROUND) {
+        if (!find_around(q, object, &object)) return false;
+        if (object < 0) break;
+        if (!try_union(q, object)) return false;
+        around[count++] = object;
+    }
+    for (size_t n = 0; n < q->culls->part_count; n++) {
+        const wf_culled *part = &q->culls->part[n];
+        if (part->near > t->packet->farthest(q->hits->s)) break;
+        if (count && is_around(around, count, t->parts[part->part].object)) continue;
+        if (!try_part(q, part)) return false;
+    }
+    return true;
+}
+
+/* ---- Packets that meet too much ---- */
+
+/* Each end of each solid is tried against all of them: beyond this many, two packets of half as
+ * many rays, each of which meets fewer, are cheaper than one. */
+#define MANY_SOLIDS 192
+
+/* Lanes first .. of a packet and its hits; the rest are copies of the last. */
+static void take_lanes(const wf_packet *from, const wf_hits *hits, int first, int count,
+                       wf_packet *to, wf_hits *to_hits) {
+    const double *const in[] = {from->rays.ox, from->rays.oy, from->rays.oz, from->rays.dx,
+                                from->rays.dy, from->rays.dz, from->f,       hits->s};
+    double *const out[] = {to->rays.ox, to->rays.oy, to->rays.oz, to->rays.dx,
+                           to->rays.dy, to->rays.dz, to->f,       to_hits->s};
+    to->rays.count = count;
+    to->late_s = from->late_s;
+    for (int i = 0; i < WF_PACKET; i++) {
+        int lane = first + (i < count ? i : count - 1);
+        for (size_t n = 0; n < sizeof in / sizeof *in; n++) out[n][i] = in[n][lane];
+        to_hits->solid[i] = hits->solid[lane];
+        to_hits->entering[i] = hits->entering[lane];
+    }
+}
+
+/* Of one part: parts of one solid each are many and cheap. */
+static int most_solids(const wf_culls *culls) {
+    int most = 0;
+    for (size_t n = 0; n < culls->part_count; n++)
+        if (culls->part[n].solid_count > most) most = culls->part[n].solid_count;
+    return most;
+}
+
+/* Hits of lanes first ..; *helps: fewer solids are met than by the whole packet, or else
+ * nothing is done. */
+static bool nearest_of_half(const search *q, bool whole, int first, int count, bool *helps) {
+    wf_packet half;
+    wf_hits hits;
+    wf_culls culls = {0};
+    take_lanes(q->packet, q->hits, first, count, &half, &hits);
+    wf_shaft shaft = wf_shaft_of_rays(&half.rays, HUGE_VAL);
+    wf_carry_begin(q->s);
+    bool good = wf_find_again(q->t, q->s, &half, &shaft, q->culls, &culls);
+    if (!*helps) *helps = 4 * most_solids(&culls) < 3 * most_solids(q->culls);
+    if (good && *helps) good = wf_nearest(q->t, q->s, &half, &culls, whole, &hits);
+    for (int i = 0; *helps && i < count; i++) {
+        q->hits->s[first + i] = hits.s[i];
+        q->hits->solid[first + i] = hits.solid[i];
+        q->hits->entering[first + i] = hits.entering[i];
+    }
+    wf_culls_free(&culls);
+    return good;
+}
+
+bool wf_nearest(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                const wf_culls *culls, bool whole, wf_hits *hits) {
+    search q = {.t = t, .s = s, .packet = packet, .culls = culls, .hits = hits};
+    int count = packet->rays.count, half = count / 2;
+    bool helps = false;
+    if (!t->skip || count < 2 || most_solids(culls) <= MANY_SOLIDS)
+        return nearest_of(&q, whole);
+    bool good = nearest_of_half(&q, whole, 0, half, &helps);
+    if (good && helps) good = nearest_of_half(&q, whole, half, count - half, &helps);
+    wf_carry_begin(s); /* what has been carried is of the halves */
+    return helps || !good ? good : nearest_of(&q, whole);
+}

@@ -1,0 +1,48 @@
+#ifndef WF_TRACER_TRACE_PACKET_H
+#define WF_TRACER_TRACE_PACKET_H
+
+#include "tracer/scene/motion.h"
+#include "tracer/trace/csg.h"
+
+/* What is done to whole packets, compiled for each instruction set; all give the same bits.
+ * Loops run over all WF_PACKET places of a packet, of which those past its count are copies. */
+
+/* How far an operator has turned each ray. */
+typedef struct wf_turns {
+    _Alignas(64) double cos[WF_PACKET], sin[WF_PACKET];
+} wf_turns;
+
+typedef struct wf_packet_ops {
+    /* Rays through an affine map. */
+    void (*place)(const wf_affine *map, const wf_rays *from, wf_rays *to);
+    /* Rays into an operator's space, at dt_s seconds from its base for each ray. */
+    void (*drift_in)(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
+                     wf_rays *to);
+    void (*spin_in)(const wf_ready_op *op, const wf_turns *turns, const wf_rays *from,
+                    wf_rays *to);
+    void (*turn)(const wf_ready_op *op, const double *dt_s, wf_turns *turns);
+    /* Directions out of an operator's space, in place. */
+    void (*spin_out)(const wf_ready_op *op, const wf_turns *turns, wf_points *directions);
+    /* Normals through the map whose inverse is given, in place. */
+    void (*place_normals)(const wf_affine *inverse, wf_points *normals);
+    /* Where rays are at s. */
+    void (*reach)(const wf_rays *rays, const double *s, wf_points *points);
+    /* Hits of one solid alone, nearer than those there are, or as near and of a solid that
+     * comes before. */
+    void (*nearer)(const wf_runs *runs, const double *rounding, int solid, wf_hits *hits);
+    void (*unit)(wf_points *directions);
+    /* How far rounding may reach along each ray for the size of where it starts: a share of
+     * origin over direction. */
+    void (*rounding)(const wf_rays *rays, double share, double *rounding);
+    double (*farthest)(const double *s);
+    void (*no_second_run)(wf_runs *runs);
+    /* The boxes of all places' origins and directions. */
+    void (*box)(const wf_rays *rays, wf_bounds *o, wf_bounds *d);
+} wf_packet_ops;
+
+extern const wf_packet_ops wf_packet_v1, wf_packet_v3, wf_packet_v4;
+
+const wf_packet_ops *wf_packet_best(void);
+const wf_packet_ops *wf_packet_at(size_t level); /* slowest first; NULL past the last */
+
+#endif

@@ -1,0 +1,212 @@
+/* Packets through operators and into hits. Compiled once for each instruction set; WF_ISA names
+ * the table (tracer/packet.c lists them). */
+#include <math.h>
+
+#include "tracer/trace/packet.h"
+#include "tracer/trace/sincos.h"
+
+#ifndef WF_ISA
+#define WF_ISA v1
+#endif
+#define JOIN_(a, b) a##b
+#define JOIN(a, b)  JOIN_(a, b)
+#define TABLE       JOIN(wf_packet_, WF_ISA)
+
+/* ---- Rays into spaces ---- */
+
+/* One row of a matrix over x, y, z. */
+static void row(const double m[3], double shift, const double *restrict x,
+                const double *restrict y, const double *restrict z, double *restrict to) {
+    double a = m[0], b = m[1], c = m[2];
+    for (int i = 0; i < WF_PACKET; i++) to[i] = a * x[i] + b * y[i] + c * z[i] + shift;
+}
+
+/* The same of directions. What is left where all cancels is rounding, and none: a ray along a
+ * plane must not meet it far away. */
+static void row_along(const double m[3], const double *restrict x, const double *restrict y,
+                      const double *restrict z, double *restrict to) {
+    double a = m[0], b = m[1], c = m[2];
+    for (int i = 0; i < WF_PACKET; i++) {
+        double p = a * x[i], q = b * y[i], r = c * z[i], sum = p + q + r;
+        double size = fabs(p) + fabs(q) + fabs(r);
+        to[i] = fabs(sum) > size * 0x1p-50 ? sum : 0;
+    }
+}
+
+static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
+    const double *m[3] = {a->m[0], a->m[1], a->m[2]};
+    row(m[0], a->d.x, from->ox, from->oy, from->oz, to->ox);
+    row(m[1], a->d.y, from->ox, from->oy, from->oz, to->oy);
+    row(m[2], a->d.z, from->ox, from->oy, from->oz, to->oz);
+    row_along(m[0], from->dx, from->dy, from->dz, to->dx);
+    row_along(m[1], from->dx, from->dy, from->dz, to->dy);
+    row_along(m[2], from->dx, from->dy, from->dz, to->dz);
+    to->count = from->count;
+}
+
+static void drift_in(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
+                     wf_rays *to) {
+    wf_vec o = op->offset, v = op->op->velocity;
+    *to = *from;
+    for (int i = 0; i < WF_PACKET; i++) {
+        to->ox[i] -= o.x + v.x * dt_s[i];
+        to->oy[i] -= o.y + v.y * dt_s[i];
+        to->oz[i] -= o.z + v.z * dt_s[i];
+    }
+}
+
+static void turn(const wf_ready_op *op, const double *dt_s, wf_turns *turns) {
+    for (int i = 0; i < WF_PACKET; i++)
+        wf_sincos_turns(op->phase + op->turns_a_second * dt_s[i], &turns->cos[i],
+                        &turns->sin[i]);
+}
+
+/* v about the unit axis k (Rodrigues): v c + (k x v) s + k (k.v) (1 - c). */
+static inline void rotate(wf_vec k, double c, double s, double *x, double *y, double *z) {
+    double vx = *x, vy = *y, vz = *z;
+    double along = (k.x * vx + k.y * vy + k.z * vz) * (1 - c);
+    *x = vx * c + (k.y * vz - k.z * vy) * s + k.x * along;
+    *y = vy * c + (k.z * vx - k.x * vz) * s + k.y * along;
+    *z = vz * c + (k.x * vy - k.y * vx) * s + k.z * along;
+}
+
+static void spin_in(const wf_ready_op *op, const wf_turns *turns, const wf_rays *from,
+                    wf_rays *to) {
+    wf_vec k = op->op->axis, m = op->op->center;
+    *to = *from;
+    for (int i = 0; i < WF_PACKET; i++) {
+        double c = turns->cos[i], s = -turns->sin[i];
+        double x = from->ox[i] - m.x, y = from->oy[i] - m.y, z = from->oz[i] - m.z;
+        rotate(k, c, s, &x, &y, &z);
+        to->ox[i] = x + m.x;
+        to->oy[i] = y + m.y;
+        to->oz[i] = z + m.z;
+        rotate(k, c, s, &to->dx[i], &to->dy[i], &to->dz[i]);
+    }
+}
+
+/* ---- Directions out of them ---- */
+
+static void spin_out(const wf_ready_op *op, const wf_turns *turns, wf_points *d) {
+    wf_vec k = op->op->axis;
+    for (int i = 0; i < WF_PACKET; i++)
+        rotate(k, turns->cos[i], turns->sin[i], &d->x[i], &d->y[i], &d->z[i]);
+}
+
+static void place_normals(const wf_affine *inverse, wf_points *n) {
+    wf_points from = *n;
+    double *const to[3] = {n->x, n->y, n->z};
+    for (int k = 0; k < 3; k++) {
+        const double turned[3] = {inverse->m[0][k], inverse->m[1][k], inverse->m[2][k]};
+        row(turned, 0, from.x, from.y, from.z, to[k]);
+    }
+}
+
+/* The largest component is brought near 1 first, so that no size of scene overflows. */
+static void unit(wf_points *d) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double x = fabs(d->x[i]), y = fabs(d->y[i]), z = fabs(d->z[i]);
+        double far = x > y ? x : y;
+        far = far > z ? far : z;
+        double share = far > 0 ? 1 / far : 0;
+        x = d->x[i] * share;
+        y = d->y[i] * share;
+        z = d->z[i] * share;
+        double size = sqrt(x * x + y * y + z * z), inverse = size > 0 ? 1 / size : 0;
+        d->x[i] = x * inverse;
+        d->y[i] = y * inverse;
+        d->z[i] = z * inverse;
+    }
+}
+
+/* ---- Hits ---- */
+
+static void reach(const wf_rays *r, const double *s, wf_points *p) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        double at = s[i] < HUGE_VAL ? s[i] : 0;
+        p->x[i] = r->ox[i] + at * r->dx[i];
+        p->y[i] = r->oy[i] + at * r->dy[i];
+        p->z[i] = r->oz[i] + at * r->dz[i];
+    }
+}
+
+/* The next end of a run along each ray; the arithmetic is done on all, and chosen from, so that
+ * the loop is one of vectors. */
+static void nearer_end(const double *restrict in, const double *restrict out,
+                       const double *restrict rounding, int64_t solid, wf_hits *restrict hits) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        int64_t enters = in[i] > 0 ? 1 : 0;
+        double s = in[i] > 0 ? in[i] : out[i], best = hits->s[i];
+        double apart = rounding[i] + s * WF_ROUNDING;
+        double limit = solid < hits->solid[i] ? best + apart : best - apart;
+        s = s > 0 ? s : HUGE_VAL;
+        int64_t take = s <= limit && s < HUGE_VAL ? 1 : 0;
+        hits->s[i] = take ? s : best;
+        hits->solid[i] = take ? solid : hits->solid[i];
+        hits->entering[i] = take ? enters : hits->entering[i];
+    }
+}
+
+static void nearer(const wf_runs *runs, const double *rounding, int solid, wf_hits *hits) {
+    nearer_end(runs->in[0], runs->out[0], rounding, solid, hits);
+    nearer_end(runs->in[1], runs->out[1], rounding, solid, hits);
+}
+
+/* ---- Boxes ---- */
+
+/* Eight at a time: of a single running minimum the compiler makes no vector. */
+static void span(const double *v, double *low, double *high) {
+    double a[8], b[8];
+    for (int k = 0; k < 8; k++) a[k] = b[k] = v[k];
+    for (int i = 8; i < WF_PACKET; i += 8)
+        for (int k = 0; k < 8; k++) {
+            a[k] = v[i + k] < a[k] ? v[i + k] : a[k];
+            b[k] = v[i + k] > b[k] ? v[i + k] : b[k];
+        }
+    for (int k = 1; k < 8; k++) {
+        a[0] = a[k] < a[0] ? a[k] : a[0];
+        b[0] = b[k] > b[0] ? b[k] : b[0];
+    }
+    *low = a[0];
+    *high = b[0];
+}
+
+static void box(const wf_rays *r, wf_bounds *o, wf_bounds *d) {
+    span(r->ox, &o->low[0], &o->high[0]);
+    span(r->oy, &o->low[1], &o->high[1]);
+    span(r->oz, &o->low[2], &o->high[2]);
+    span(r->dx, &d->low[0], &d->high[0]);
+    span(r->dy, &d->low[1], &d->high[1]);
+    span(r->dz, &d->low[2], &d->high[2]);
+}
+
+/* ---- Bounds along rays ---- */
+
+static inline double largest(double x, double y, double z) {
+    double a = fabs(x), b = fabs(y), c = fabs(z);
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+static void rounding(const wf_rays *restrict r, double share, double *restrict out) {
+    for (int i = 0; i < WF_PACKET; i++)
+        out[i] = largest(r->ox[i], r->oy[i], r->oz[i]) / largest(r->dx[i], r->dy[i], r->dz[i]) *
+                 share;
+}
+
+static double farthest(const double *s) {
+    double low, high;
+    span(s, &low, &high);
+    return high;
+}
+
+static void no_second_run(wf_runs *runs) {
+    for (int i = 0; i < WF_PACKET; i++) {
+        runs->in[1][i] = HUGE_VAL;
+        runs->out[1][i] = -HUGE_VAL;
+    }
+}
+
+const wf_packet_ops TABLE = {place,         drift_in,      spin_in, turn, spin_out,
+                             place_normals, reach,         nearer,  unit, rounding,
+                             farthest,      no_second_run, box};

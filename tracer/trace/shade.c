@@ -1,0 +1,331 @@
+#include <math.h>
+#include <string.h>
+
+#include "tracer/trace/inside.h"
+
+/* Secondary rays start this far off the surface, by the size of the numbers they start from:
+ * what rounding leaves on the wrong side is far nearer. */
+#define OFF_SURFACE 0x1p-34
+
+typedef struct shading {
+    const wf_tracer *t;
+    wf_trace_scratch *s;
+    int level;
+    wf_trace_level *l;
+    int count;
+    wf_surfaces *surface;
+    bool shines; /* something here has a highlight */
+    _Alignas(64) double off[WF_PACKET];
+} shading;
+
+static wf_vec at(const wf_points *p, int i) {
+    return (wf_vec){p->x[i], p->y[i], p->z[i]};
+}
+
+static void put(wf_points *p, int i, wf_vec v) {
+    p->x[i] = v.x, p->y[i] = v.y, p->z[i] = v.z;
+}
+
+static wf_vec direction(const wf_rays *r, int i) {
+    return (wf_vec){r->dx[i], r->dy[i], r->dz[i]};
+}
+
+static double dot(wf_vec a, wf_vec b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static wf_vec along(wf_vec a, double s, wf_vec b) {
+    return (wf_vec){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+static wf_vec unit(wf_vec v) {
+    double far = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    if (!(far > 0)) return v;
+    v = (wf_vec){v.x / far, v.y / far, v.z / far};
+    double size = sqrt(dot(v, v));
+    return (wf_vec){v.x / size, v.y / size, v.z / size};
+}
+
+/* ---- Surfaces ---- */
+
+static void choose(const shading *h, int64_t solid, const double *from, double *to) {
+    h->t->light->choose(h->l->hits.solid, solid, from, to);
+}
+
+static void paint_normals(const shading *h, const wf_solid *solid, int64_t index,
+                          const wf_rays *rays) {
+    wf_rays local;
+    wf_points p, n;
+    h->t->packet->place(&solid->inverse, rays, &local);
+    h->t->packet->reach(&local, h->l->hits.s, &p);
+    h->t->normals[solid->kind](solid, h->t->scene->planes, &p, &n);
+    h->t->packet->place_normals(&solid->inverse, &n);
+    wf_carry_normals(h->t, h->s, solid->op, &n);
+    choose(h, index, n.x, h->l->normal.x);
+    choose(h, index, n.y, h->l->normal.y);
+    choose(h, index, n.z, h->l->normal.z);
+}
+
+static void find_colors(const shading *h, const wf_solid *solid, const wf_material *m,
+                        const wf_rays *rays, double rgb[3][WF_PACKET]) {
+    wf_rays written;
+    wf_points p;
+    if (m->texture.kind == WF_TEXTURE_NONE) {
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < WF_PACKET; i++) rgb[c][i] = (double)m->color[c];
+        return;
+    }
+    if (solid->written >= 0) {
+        h->t->packet->place(&h->t->ops[solid->written].inverse, rays, &written);
+        rays = &written;
+    }
+    h->t->packet->reach(rays, h->l->hits.s, &p);
+    h->t->textures[m->texture.kind](h->t->scene, &m->texture, &p, h->count,
+                                    (double *const[3]){rgb[0], rgb[1], rgb[2]});
+}
+
+static void paint_material(shading *h, const wf_material *m, int64_t index) {
+    wf_surfaces *f = h->surface;
+    const struct {
+        double value, *to;
+    } property[] = {{m->unlit ? 0 : 1, f->lit},
+                    {(double)m->ambient, f->ambient},
+                    {(double)m->diffuse, f->diffuse},
+                    {(double)m->specular, f->specular},
+                    {(double)m->shininess, f->shininess}};
+    for (size_t k = 0; k < sizeof property / sizeof *property; k++) {
+        double all[WF_PACKET];
+        for (int i = 0; i < WF_PACKET; i++) all[i] = property[k].value;
+        choose(h, index, all, property[k].to);
+    }
+    for (int i = 0; i < WF_PACKET; i++)
+        if (h->l->hits.solid[i] == index) f->material[i] = m;
+    h->shines |= m->specular > 0;
+}
+
+static bool paint_solid(shading *h, int64_t index) {
+    const wf_solid *solid = &h->t->scene->solids[index];
+    const wf_material *m = &h->t->scene->materials[solid->material];
+    const wf_rays *rays = wf_carry_rays(h->t, h->s, &h->l->packet, solid->op);
+    double rgb[3][WF_PACKET];
+    if (!rays) return false;
+    paint_normals(h, solid, index, rays);
+    find_colors(h, solid, m, rays, rgb);
+    for (int c = 0; c < 3; c++) choose(h, index, rgb[c], h->surface->color[c]);
+    paint_material(h, m, index);
+    return true;
+}
+
+/* Solid by solid of those that are seen, each for all lanes at once. */
+static bool paint(shading *h) {
+    const int64_t *solid = h->l->hits.solid;
+    int64_t done[WF_PACKET];
+    int done_count = 0;
+    memset(h->surface, 0, sizeof *h->surface);
+    for (int i = 0; i < h->count; i++) {
+        int k = 0;
+        if (solid[i] < 0) continue;
+        while (k < done_count && done[k] != solid[i]) k++;
+        if (k < done_count) continue;
+        done[done_count++] = solid[i];
+        if (!paint_solid(h, solid[i])) return false;
+    }
+    h->t->packet->reach(&h->l->packet.rays, h->l->hits.s, &h->l->point);
+    h->t->light->face(&h->l->packet.rays, &h->l->normal);
+    h->t->light->off_surface(&h->l->packet.rays, h->l->hits.s, OFF_SURFACE, h->off);
+    return true;
+}
+
+/* ---- Secondary packets ---- */
+
+static void add_ray(const shading *h, int lane, wf_vec from, wf_vec to, wf_packet *packet) {
+    wf_rays *r = &packet->rays;
+    int i = r->count++;
+    r->ox[i] = from.x, r->oy[i] = from.y, r->oz[i] = from.z;
+    r->dx[i] = to.x, r->dy[i] = to.y, r->dz[i] = to.z;
+    packet->f[i] = h->l->packet.f[lane];
+}
+
+/* Copies of the last ray behind the packet's rays. */
+static void pad(wf_packet *packet) {
+    wf_rays *r = &packet->rays;
+    double *const array[] = {r->ox, r->oy, r->oz, r->dx, r->dy, r->dz, packet->f};
+    for (size_t n = 0; n < sizeof array / sizeof *array; n++)
+        for (int i = r->count; i < WF_PACKET; i++) array[n][i] = array[n][r->count - 1];
+}
+
+/* ---- Lights ---- */
+
+/* A light as each lane sees it, whose time is its own. */
+static void find_light(const shading *h, const wf_light *light, wf_points *place,
+                       wf_points *shines) {
+    double dt_s[WF_PACKET];
+    for (int i = 0; i < WF_PACKET; i++) {
+        put(place, i, light->point);
+        put(shines, i, light->direction);
+    }
+    for (int op = light->op; op >= 0; op = h->t->scene->ops[op].outer) {
+        wf_carry_times(h->t, &h->l->packet, &h->t->scene->ops[op], dt_s);
+        for (int i = 0; i < WF_PACKET; i++) {
+            wf_affine map = wf_op_at(&h->t->ops[op], dt_s[i]);
+            put(place, i, wf_apply(&map, at(place, i)));
+            put(shines, i, wf_turn(&map, at(shines, i)));
+        }
+    }
+}
+
+/* What reaches a point at `way` from the light without shadows: cone and fall-off. */
+static double reach_of(const wf_light *light, wf_vec way, wf_vec shines) {
+    double distance = sqrt(dot(way, way)), share = 1;
+    if (light->kind == WF_LIGHT_SPOT) {
+        double cosine = -dot(unit(way), unit(shines)), wide = light->cos_outer;
+        double f = (cosine - wide) / fmax(light->cos_inner - wide, 1e-9);
+        f = fmin(fmax(f, 0), 1);
+        share = f * f * (3 - 2 * f);
+    }
+    return light->fall_off > 0 ? share * pow(distance, -light->fall_off) : share;
+}
+
+/* The way to the light, and how much of it would come without shadows. */
+static void find_ways(const shading *h, const wf_light *light, wf_points *ways, double *share) {
+    wf_points place, shines;
+    find_light(h, light, &place, &shines);
+    if (light->kind == WF_LIGHT_DIRECTION)
+        h->t->light->against(&shines, ways);
+    else
+        h->t->light->ways(&h->l->point, &place, ways);
+    h->t->light->faces_light(h->surface->lit, &h->l->normal, ways, share);
+    if (light->kind != WF_LIGHT_SPOT && !(light->fall_off > 0)) return;
+    for (int i = 0; i < h->count; i++)
+        if (share[i] > 0 && light->kind != WF_LIGHT_DIRECTION)
+            share[i] *= reach_of(light, at(ways, i), at(&shines, i));
+}
+
+/* Takes light away from the lanes that something stands before. */
+static bool cast_shadows(const shading *h, const wf_light *light, const wf_points *ways,
+                         double *share) {
+    wf_trace_level *l = h->l;
+    wf_hits hits;
+    int lane[WF_PACKET], lanes = 0;
+    double far = light->kind == WF_LIGHT_DIRECTION ? HUGE_VAL : 1 - OFF_SURFACE;
+    l->shadow.rays.count = 0;
+    l->shadow.late_s = l->packet.late_s;
+    for (int i = 0; i < h->count; i++) {
+        if (!(share[i] > 0)) continue;
+        wf_vec from = along(at(&l->point, i), h->off[i], at(&l->normal, i));
+        add_ray(h, i, from, at(ways, i), &l->shadow);
+        lane[lanes++] = i;
+    }
+    if (!lanes) return true;
+    pad(&l->shadow);
+    h->s->counts.rays += lanes;
+    wf_hits_clear(&hits);
+    for (int i = 0; i < WF_PACKET; i++) hits.s[i] = far;
+    wf_shaft shaft = wf_shaft_of_rays(&l->shadow.rays, far);
+    wf_carry_begin(h->s);
+    if (!wf_find(h->t, h->s, &l->shadow, &shaft, &l->culls) ||
+        !wf_nearest(h->t, h->s, &l->shadow, &l->culls, false, &hits))
+        return false;
+    for (int k = 0; k < lanes; k++)
+        if (hits.solid[k] >= 0) share[lane[k]] = 0;
+    return true;
+}
+
+static bool add_lights(const shading *h) {
+    wf_surfaces *f = h->surface;
+    for (int c = 0; c < 3; c++) memcpy(f->light[c], f->ambient, sizeof f->ambient);
+    for (int n = 0; n < h->t->scene->light_count; n++) {
+        const wf_light *light = &h->t->scene->lights[n];
+        wf_points ways;
+        _Alignas(64) double share[WF_PACKET];
+        find_ways(h, light, &ways, share);
+        if (light->shadows && !cast_shadows(h, light, &ways, share)) return false;
+        h->t->light->add(&h->l->packet.rays, &h->l->normal, &ways, share, light->color,
+                         h->shines, f);
+    }
+    return true;
+}
+
+/* ---- Mirrors and glass ---- */
+
+static wf_vec mirrored(wf_vec d, wf_vec n) {
+    return along(d, -2 * dot(d, n), n);
+}
+
+/* Snell: false where all is reflected. n faces against d; ratio: index before over behind. */
+static bool refracted(wf_vec d, wf_vec n, double ratio, wf_vec *out) {
+    double cosine = -dot(d, n), rest = 1 - ratio * ratio * (1 - cosine * cosine);
+    if (rest < 0) return false;
+    wf_vec flat = along((wf_vec){0, 0, 0}, ratio, d);
+    *out = along(flat, ratio * cosine - sqrt(rest), n);
+    return true;
+}
+
+static wf_vec way_on(const shading *h, int i, bool through, double *side) {
+    const wf_material *m = h->surface->material[i];
+    wf_vec d = unit(direction(&h->l->packet.rays, i)), n = at(&h->l->normal, i), out;
+    double index = (double)m->index, ratio = h->l->hits.entering[i] ? 1 / index : index;
+    *side = 1;
+    if (!through || !refracted(d, n, ratio, &out)) return mirrored(d, n);
+    *side = -1;
+    return out;
+}
+
+static double share_of(const wf_material *m, bool through) {
+    if (!m) return 0;
+    return through ? (double)m->refract : (double)m->reflect;
+}
+
+/* What comes by way of a mirror is added; what comes through takes the place of as much of the
+ * surface's own light. */
+static void mix(const shading *h, const int *lane, int lanes, bool through) {
+    const wf_trace_level *next = &h->s->level[h->level + 1];
+    for (int k = 0; k < lanes; k++) {
+        int i = lane[k];
+        double share = share_of(h->surface->material[i], through);
+        for (int c = 0; c < 3; c++) {
+            double own = h->l->rgb[c][i], tint = h->surface->color[c][i];
+            h->l->rgb[c][i] = through ? own * (1 - share) + share * tint * next->rgb[c][k]
+                                      : own + share * next->rgb[c][k];
+        }
+    }
+}
+
+static bool look_on(const shading *h, bool through) {
+    wf_trace_level *next = &h->s->level[h->level + 1];
+    int lane[WF_PACKET], lanes = 0;
+    next->packet.rays.count = 0;
+    next->packet.late_s = h->l->packet.late_s;
+    for (int i = 0; i < h->count; i++) {
+        double side;
+        if (!(share_of(h->surface->material[i], through) > 0)) continue;
+        wf_vec way = way_on(h, i, through, &side);
+        wf_vec from = along(at(&h->l->point, i), side * h->off[i], at(&h->l->normal, i));
+        add_ray(h, i, from, way, &next->packet);
+        lane[lanes++] = i;
+    }
+    if (!lanes) return true;
+    pad(&next->packet);
+    wf_shaft shaft = wf_shaft_of_rays(&next->packet.rays, HUGE_VAL);
+    wf_carry_begin(h->s);
+    if (!wf_find(h->t, h->s, &next->packet, &shaft, &next->culls) ||
+        !wf_look_along(h->t, h->s, h->level + 1, &next->culls))
+        return false;
+    mix(h, lane, lanes, through);
+    return true;
+}
+
+bool wf_shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
+    wf_surfaces surface;
+    wf_trace_level *l = &s->level[level];
+    shading h = {.t = t,
+                 .s = s,
+                 .level = level,
+                 .l = l,
+                 .count = l->packet.rays.count,
+                 .surface = &surface};
+    if (!paint(&h) || !add_lights(&h)) return false;
+    t->light->sum(&surface, l->hits.s, t->scene->background, l->rgb);
+    if (level + 1 >= s->levels) return true;
+    return look_on(&h, true) && look_on(&h, false);
+}

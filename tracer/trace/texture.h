@@ -1,0 +1,14 @@
+#ifndef WF_TRACER_TRACE_TEXTURE_H
+#define WF_TRACER_TRACE_TEXTURE_H
+
+#include "tracer/trace/solid.h"
+
+/* Colors of a texture at the first count points of a packet, in the space that it was written
+ * in. */
+typedef void wf_texture_fn(const wf_scene *scene, const wf_texture *texture,
+                           const wf_points *points, int count, double *const rgb[3]);
+
+/* By kind (none for WF_TEXTURE_NONE), the fastest that this processor runs. */
+wf_texture_fn *const *wf_textures_best(void);
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef WF_TRACER_TRACE_TREE_H
+#define WF_TRACER_TRACE_TREE_H
+
+#include "tracer/trace/bounds.h"
+
+/* A tree of boxes over some of the items of an array of boxes. Immutable once made. */
+typedef struct wf_tree_node {
+    wf_bounds bounds;
+    int first, count; /* items of a leaf; count 0: the children are first and first + 1 */
+} wf_tree_node;
+
+typedef struct wf_tree {
+    wf_tree_node *nodes;
+    int *items; /* indices into the array of boxes */
+    int node_count, item_count;
+} wf_tree;
+
+/* A tree over items (copied) of bounds, all of them finite. False: no memory. */
+bool wf_tree_new(const wf_bounds *bounds, const int *items, int count, wf_tree *out);
+void wf_tree_free(wf_tree *tree);
+
+/* Appends to found, in no order, the items whose boxes the shaft may reach; found must have
+ * room for every item. Returns how many. */
+int wf_tree_meet(const wf_tree *tree, const wf_bounds *bounds, const wf_shaft *shaft,
+                 int *found);
+
+#endif
