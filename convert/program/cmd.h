@@ -1,3 +1,4 @@
+/* What commands are made of: their tables, and what reads, helps and prints by them. */
 #ifndef WF_CONVERT_PROGRAM_CMD_H
 #define WF_CONVERT_PROGRAM_CMD_H
 
@@ -26,8 +27,8 @@ typedef struct wf_cmd {
     const char *name;
     const char *operands; /* "INPUT... -o OUTPUT" */
     const char *summary;  /* one line */
-    const char *text;     /* before the options: what it does, examples */
-    const char *notes;    /* after them; NULL: nothing */
+    const char *text;     /* what it does, with examples; help prints it before the options */
+    const char *notes;    /* what help prints after the options; NULL: nothing */
     const wf_cmd_option *options;
     size_t option_count;
     const char *const *job_options; /* names of weft_job_set's that it takes, ended by NULL;
@@ -39,7 +40,7 @@ extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
     wf_cmd_composite, wf_cmd_filters, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify, wf_cmd_manual,
     wf_cmd_completion;
 
-/* All of them, by index; NULL past the end. */
+/* The command of that index, in the order in which help lists them; NULL past the end. */
 const wf_cmd *wf_cmd_at(size_t index);
 
 /* Reads a command's arguments into its state (the struct its options' offsets count in) and
@@ -62,15 +63,19 @@ void wf_cmd_forget(wf_cmd_list *kept);
 weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,
                           weft_error *err);
 
-/* The option --progress, and a meter in the style it names; quiet: of none. */
+/* The row of the option --progress, for a command's table. */
 #define WF_CMD_PROGRESS(group)                                                                 \
     {                                                                                          \
         "progress", WF_CMD_PROGRESS_STYLES, "tty on a terminal, else none",                    \
             "How to show progress, on standard error.", group                                  \
     }
 #define WF_CMD_PROGRESS_STYLES "tty|plain|alf|json|none"
+
+/* Starts a meter in the style that --progress names (NULL: chosen by wf_meter_init); when
+ * quiet, one that shows nothing. WEFT_USAGE for an unknown style. */
 weft_status wf_cmd_meter(wf_meter *meter, const char *style, bool quiet, weft_error *err);
 
+/* Prints what COMMAND --help says, on standard output. */
 void wf_cmd_help(const wf_cmd *cmd);
 
 /* Prints what wf_json_finish returned, and frees it. */
@@ -89,7 +94,7 @@ void wf_cmd_say(const char *kind, const char *text);
 void wf_cmd_catch_signals(weft_job *job);
 void wf_cmd_ignore_signals(void);
 
-/* Which signal asked the program to stop; 0: none. */
+/* The number of the signal that asked the program to stop; 0 if none did. */
 int wf_cmd_signal(void);
 
 #endif

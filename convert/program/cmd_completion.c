@@ -21,7 +21,8 @@ static const char *aperture_name(size_t i, weft_raster *raster) {
     return weft_aperture_name(i);
 }
 
-/* A codec that goes into several containers has a row for each: here it is listed once. */
+/* Whether an earlier row has the same name: a codec that goes into several containers has a row
+ * for each, and is completed once. */
 static bool is_repeated(size_t i) {
     for (size_t j = 0; j < i; j++)
         if (!strcmp(wf_delivery_at(j)->kind.name, wf_delivery_at(i)->kind.name)) return true;
@@ -36,7 +37,7 @@ static const char *codec_name(size_t i, weft_raster *raster) {
     return wf_delivery_at(row) ? wf_delivery_at(row)->kind.name : NULL;
 }
 
-/* Names that are listed elsewhere, by the option or the command that takes one. */
+/* Options and commands whose values are names of a table, and what lists that table. */
 static const struct {
     const char *taker;
     name_fn *name;
@@ -58,7 +59,7 @@ static bool holds_word(const char *text, const char *const *words) {
     return false;
 }
 
-/* takes: of an option, or a command's operands. */
+/* The kind of value that an option takes, or a command as its operands. */
 static value_kind kind_of(const char *taker, const char *takes) {
     static const char *const files[] = {"FILE", "OUTPUT", "INPUT", "SCENE", "IN ", "REF", NULL};
     if (!takes) return FLAG;
@@ -66,7 +67,8 @@ static value_kind kind_of(const char *taker, const char *takes) {
     return holds_word(takes, files) ? FILES : ANYTHING;
 }
 
-/* "a b silent:" of "a|b|silent:N", or the names there are. */
+/* Prints the words that can be completed: the names of the taker's table, or the fixed parts of
+ * what it takes ("a b silent:" of "a|b|silent:N"). */
 static void put_words(const char *taker, const char *takes) {
     weft_raster raster;
     const char *between = "";
@@ -80,7 +82,8 @@ static void put_words(const char *taker, const char *takes) {
     }
 }
 
-/* Text within single quotes, with what the shell's own syntax reads escaped by backslashes. */
+/* Prints text that stands within single quotes; characters that are special to the shell's
+ * completion get a backslash. */
 static void put_quoted(const char *text, const char *special) {
     for (; *text; text++) {
         if (*text == '\'') {
@@ -92,7 +95,8 @@ static void put_quoted(const char *text, const char *special) {
     }
 }
 
-/* In fish a backslash escapes within single quotes as well. */
+/* Prints text that stands within single quotes of fish, where a backslash is special as well.
+ */
 static void put_fish_text(const char *text) {
     for (; *text; text++) {
         if (*text == '\'' || *text == '\\') putchar('\\');
@@ -102,7 +106,7 @@ static void put_fish_text(const char *text) {
 
 static const weft_option help = {"help", NULL, NULL, "Show what it takes.", ""};
 
-/* Option i, and after the last --help. */
+/* Finds option i of a command; the one after the last is --help. */
 static bool option_or_help(const wf_cmd *cmd, size_t i, weft_option *out, char *letter) {
     if (wf_cmd_option_at(cmd, i, out, letter)) return true;
     *out = help;
@@ -178,7 +182,7 @@ static void put_bash(void) {
 
 /* ---- zsh ---- */
 
-/* ":what:action" of a value. */
+/* Prints ":what:action", by which zsh completes a value. */
 static void zsh_value(const char *taker, const char *takes) {
     value_kind kind = kind_of(taker, takes);
     if (kind == FLAG) return;

@@ -1,3 +1,4 @@
+/* weft composite: what an NTSC or PAL television would show. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +15,7 @@ typedef struct composite_state {
 
 /* ---- Options ---- */
 
-/* In the order of their enumerations. */
+/* Values of options, in the order of wf_tv_system, wf_tv_encoder and wf_tv_decoder. */
 static const char systems[] = "ntsc|pal", encoders[] = "cheap|filtered",
                   decoders[] = "notch|comb2|comb3";
 
@@ -52,7 +53,8 @@ static void on_warning(const char *text, void *user) {
     wf_cmd_say("warning: ", text);
 }
 
-/* The number of frames may not be known before the last. */
+/* Passes progress on. The number of frames may be unknown until the last has been read: it is
+ * then shown as the number that is done. */
 static void on_progress(const weft_progress *progress, void *user) {
     composite_state *state = user;
     weft_progress shown = *progress;
@@ -148,7 +150,7 @@ const wf_cmd wf_cmd_composite = {
     .summary = "what an NTSC or PAL television would show",
     .text =
         "Takes finished video through a composite coder and a television's decoder, as every\n"
-        "analogue broadcast and tape did. Fine luma near the color subcarrier comes back as\n"
+        "analog broadcast and tape did. Fine luma near the color subcarrier comes back as\n"
         "false color (cross-color), edges of color as crawling dots (cross-luma).\n"
         "\n"
         "IN is Y4M, .v210, .uyvy, a picture, a sequence in quotes, or - for Y4M on standard\n"

@@ -1,6 +1,6 @@
-#include "convert/program/cmd_filters.h"
+/* weft filters: apertures and their responses. */
+#include "convert/program/filters_parts.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,23 +14,6 @@ typedef struct filters_state {
     char joined[320]; /* "design" and what follows, from two arguments */
     bool json;
 } filters_state;
-
-wf_aperture wf_filters_example(const wf_aperture_kind *kind, char *name) {
-    wf_aperture example = {.kind = kind};
-    char why[256];
-    snprintf(name, 64, "%s%s%s", kind->name, kind->follows ? ":" : "",
-             kind->follows ? kind->example : "");
-    wf_aperture_parse(name, &example, why, sizeof why);
-    return example;
-}
-
-double wf_filters_tau(const wf_filters_query *query, const wf_aperture *aperture) {
-    return query->tau < 0 ? wf_ratio_value(aperture->kind->default_width) : query->tau;
-}
-
-double wf_filters_db(double value, double zero_db) {
-    return fabs(value) < 1e-14 ? zero_db : 20 * log10(fabs(value));
-}
 
 static weft_status ask(const filters_state *state, const weft_job *job, wf_filters_query *query,
                        weft_error *err) {
@@ -69,7 +52,8 @@ static weft_status answer(const filters_state *state, const wf_filters_query *qu
     return WEFT_OK;
 }
 
-/* A word too many: most likely keys that commas should join, or 'design' misspelt. */
+/* Refuses several names, which most likely are keys of a design without commas, or a misspelled
+ * 'design'. */
 static weft_status refuse(int names, char **name, weft_error *err) {
     wf_spelling spelling = {.text = name[0]};
     const wf_aperture_kind *kind;

@@ -1,56 +1,17 @@
-#include <inttypes.h>
+/* weft info: what a file or a sequence is. */
 #include <stdio.h>
 #include <sys/stat.h>
 
 #include "convert/base/fail.h"
 #include "convert/base/pattern.h"
 #include "convert/program/cmd.h"
-#include "convert/program/cmd_info.h"
+#include "convert/program/info_facts.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 
 typedef struct info_state {
     bool json;
 } info_state;
-
-/* ---- Facts ---- */
-
-void wf_fact_text(wf_facts *facts, const char *key, const char *value) {
-    if (facts->as_json) {
-        wf_json_text(&facts->json, key, value);
-        return;
-    }
-    printf("  ");
-    for (int column = 0; column < 18; column++) {
-        putchar(*key == '_' || !*key ? ' ' : *key);
-        key += *key != '\0';
-    }
-    puts(value);
-}
-
-void wf_fact_int(wf_facts *facts, const char *key, int64_t value) {
-    char text[24];
-    snprintf(text, sizeof text, "%" PRId64, value);
-    if (facts->as_json)
-        wf_json_int(&facts->json, key, value);
-    else
-        wf_fact_text(facts, key, text);
-}
-
-void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between) {
-    char text[48];
-    snprintf(text, sizeof text, "%" PRId64 "%c%" PRId64, value.num, between, value.den);
-    wf_fact_text(facts, key, text);
-}
-
-void wf_fact_real(wf_facts *facts, const char *key, double value) {
-    char text[32];
-    snprintf(text, sizeof text, "%.9g", value);
-    if (facts->as_json)
-        wf_json_real(&facts->json, key, value);
-    else
-        wf_fact_text(facts, key, text);
-}
 
 /* ---- Pictures ---- */
 
@@ -109,7 +70,7 @@ static void list_missing(wf_facts *facts, const wf_sequence *sequence) {
     wf_json_close(&facts->json);
 }
 
-/* For people: how many, and the first few. */
+/* Tells people how many numbers are missing, and the first eight of them. */
 static void sum_up_missing(wf_facts *facts, const wf_sequence *sequence) {
     char text[256];
     int used = snprintf(text, sizeof text, "%zu", sequence->missing), shown = 0;
@@ -172,7 +133,7 @@ static weft_status tell_as_lines(char *path, wf_facts *facts, weft_error *err) {
     return tell(path, facts, err);
 }
 
-/* The trouble with one file does not keep the others from being told. */
+/* Tells about every file; one that cannot be read does not stop the others. */
 static weft_status tell_all(int count, char **paths, wf_facts *facts) {
     weft_status worst = WEFT_OK;
     for (int i = 0; i < count; i++) {

@@ -9,7 +9,7 @@
 
 /* ---- roff ---- */
 
-/* Text that roff does not read anything into, not at the beginning of a line. */
+/* Prints text in which roff finds no commands. It must not stand at the beginning of a line. */
 static void put_inner(const char *text, size_t length) {
     static const char *const escapes[128] = {
         ['\\'] = "\\(rs", ['-'] = "\\-",   ['\''] = "\\(aq", ['`'] = "\\(ga",
@@ -32,7 +32,7 @@ static void put_text(const char *text) {
     put(text, strlen(text));
 }
 
-/* Text that roff fills, in lines of a length that its checkers like. */
+/* Prints text that roff fills, in lines short enough for the checkers of manual pages. */
 static void put_filled(const char *text, size_t length) {
     size_t column = 0;
     for (size_t at = 0; at < length;) {
@@ -50,7 +50,8 @@ static void put_filled(const char *text, size_t length) {
     putchar('\n');
 }
 
-/* Paragraphs between empty lines; lines that begin with two blanks stay as they are. */
+/* Prints paragraphs, which empty lines part. Lines that begin with two blanks are kept as they
+ * are. */
 static void put_paragraphs(const char *text) {
     bool literal = false, fresh = true, first = true; /* a heading begins a paragraph */
     for (; *text; text += *text == '\n') {
@@ -108,7 +109,8 @@ static void put_synopsis(void) {
     }
 }
 
-/* What a command says of itself, the options that it alone has, and names of those of jobs. */
+/* Prints a command's text, its own options, and the names of the job's options that it takes,
+ * which are described once for all. */
 static void put_command(const wf_cmd *cmd, const wf_cmd *before) {
     weft_option option;
     char letter;
@@ -202,7 +204,8 @@ static const entry files[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* The day of the build, or the one that a reproducible build is told. */
+/* The page is dated with the day of the build, or with SOURCE_DATE_EPOCH (in seconds) if that
+ * is set, so that a build can be reproduced. */
 static void put_title(void) {
     const char *told = getenv("SOURCE_DATE_EPOCH");
     time_t now = told ? (time_t)strtoll(told, NULL, 10) : time(NULL);

@@ -1,4 +1,5 @@
-#include "convert/program/cmd_measure.h"
+/* weft measure: flicker, cross-color, field order, legality and differences of video. */
+#include "convert/program/measure_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,7 +51,7 @@ static weft_status read_display(const char *text, wf_measure_options *o, weft_er
     return status;
 }
 
-/* Each --limit, and each of several with commas between them. */
+/* Reads every --limit, each of which may hold several limits with commas between them. */
 static weft_status read_limits(measure_state *s, weft_error *err) {
     weft_status status = WEFT_OK;
     for (size_t i = 0; i < s->limits.count && !status; i++) {
@@ -77,7 +78,8 @@ static bool same_file(const char *a, const char *b) {
     return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-/* Names that would be two things at once. */
+/* Refuses names that would be two things at once, such as a heat map that replaces its input.
+ */
 static weft_status check_names(const measure_state *s, int files, char **paths,
                                weft_error *err) {
     if (files > 1 && s->heatmap)
@@ -125,7 +127,8 @@ static weft_status read_state(measure_state *s, int files, char **paths, weft_er
 
 /* ---- The heat map ---- */
 
-/* The strongest color is a round number a little above the 99.9th percentile. */
+/* The value that is drawn in the strongest color: the 99.9th percentile, rounded up to a round
+ * number. */
 static double round_up(double value) {
     static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
@@ -150,7 +153,7 @@ static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_e
 
 /* ---- Measuring ---- */
 
-/* Every limit that is exceeded is said. */
+/* Says of every limit that is exceeded by how much it is. */
 static weft_status check_limits(const measure_state *s, const char *path, const wf_figures *f) {
     weft_status worst = WEFT_OK;
     for (size_t i = 0; i < s->limit_count; i++) {
@@ -164,7 +167,7 @@ static weft_status check_limits(const measure_state *s, const char *path, const 
     return worst;
 }
 
-/* The trouble with one file does not keep the others from being measured. */
+/* Measures a file and says what is wrong with it, so that the others can still be measured. */
 static weft_status measure_one(measure_state *s, const char *path, wf_json *json) {
     wf_figures figures;
     weft_error trouble = {""};

@@ -1,3 +1,4 @@
+/* weft rasters: the rasters that have names. */
 #include <inttypes.h>
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* weft verify: whether a delivered file says and holds what it should. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

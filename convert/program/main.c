@@ -1,3 +1,5 @@
+/* The program weft: finds the command, answers --help and --version, and turns a status into an
+ * exit code. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -53,7 +55,7 @@ static const wf_cmd *find_command(const char *name, weft_error *err) {
     return NULL;
 }
 
-/* Whether one of the arguments before "--" is one of the two words. */
+/* Whether an argument before "--" is the letter or the word of a question such as --help. */
 static bool asks(int argc, char **argv, const char *letter, const char *word) {
     for (int i = 0; i < argc && strcmp(argv[i], "--"); i++)
         if (!strcmp(argv[i], letter) || !strcmp(argv[i], word)) return true;
@@ -85,7 +87,8 @@ static weft_status run(int argc, char **argv, weft_error *err) {
     return WEFT_OK;
 }
 
-/* A standard stream that was closed would lend its number to the next file opened. */
+/* Opens /dev/null in place of standard streams that are closed: their numbers would otherwise
+ * go to the next files that are opened. */
 static void occupy_standard_streams(void) {
     int fd = open("/dev/null", O_RDONLY);
     while (fd >= 0 && fd <= STDERR_FILENO) fd = open("/dev/null", O_RDONLY);

@@ -1,3 +1,4 @@
+/* Shows how far a job is, in the styles of --progress. */
 #include "convert/program/progress.h"
 
 #include <inttypes.h>
@@ -15,7 +16,7 @@ static double rate_of(const weft_progress *p) {
     return p->seconds > 0 ? (double)p->frames_done / p->seconds : 0;
 }
 
-/* Seconds to go at the pace so far; below 0: not known yet. */
+/* Seconds that are left at the pace so far; below 0 as long as there is no pace. */
 static double remaining_s(const weft_progress *p) {
     double rate = rate_of(p);
     return rate > 0 ? (double)(p->frames_total - p->frames_done) / rate : -1;
@@ -43,7 +44,7 @@ static void clock_text(double seconds, char *text, size_t size) {
                  (int)(s % 60));
 }
 
-/* One line, rewritten ten times a second at most. */
+/* Shows a line on a terminal that is rewritten at most ten times a second. */
 static void show_tty(wf_meter *meter, const weft_progress *p) {
     if (meter->shown_s >= 0 && p->seconds - meter->shown_s < 0.1 && !finished(p)) return;
     char text[160], eta[16];
@@ -62,7 +63,7 @@ static void show_tty(wf_meter *meter, const weft_progress *p) {
     meter->shown_s = p->seconds;
 }
 
-/* A line every ten percent, for logs. */
+/* Writes a line every ten percent, for logs. */
 static void show_plain(wf_meter *meter, const weft_progress *p) {
     int percent = percent_of(p);
     if (meter->percent >= 0 && percent / 10 == meter->percent / 10) return;
@@ -71,7 +72,7 @@ static void show_plain(wf_meter *meter, const weft_progress *p) {
     meter->percent = percent;
 }
 
-/* What render queues of the Alfred and Tractor kind read. */
+/* Writes the lines that render queues of the Alfred and Tractor kind read. */
 static void show_alf(wf_meter *meter, const weft_progress *p) {
     int percent = percent_of(p);
     if (percent == meter->percent) return;
@@ -79,7 +80,7 @@ static void show_alf(wf_meter *meter, const weft_progress *p) {
     meter->percent = percent;
 }
 
-/* One object a line, ten a second at most. */
+/* Writes a JSON object a line, at most ten a second. */
 static void show_json(wf_meter *meter, const weft_progress *p) {
     if (meter->shown_s >= 0 && p->seconds - meter->shown_s < 0.1 && !finished(p)) return;
     fprintf(stderr,

@@ -40,7 +40,7 @@ def fields(clip, name):
 
 
 def flicker_map(clip, block=6):
-    """The flicker of measure.md, half the difference of the fields as a bob display shows them: RMS of
+    """The flicker of measure, half the difference of the fields as a bob display shows them: RMS of
     blocks as a picture, and of all."""
     rows, own = clip.picture(), clip.parity(0)
     sums = [[0.0] * (clip.width // block) for _ in range(clip.lines // block)]

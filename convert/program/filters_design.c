@@ -1,20 +1,10 @@
-/* What 'weft filters' says of designed apertures: their certificate. */
+/* Part of weft filters: what a designed aperture was wished to be, how it came out, and the
+ * proof that nothing does better, as text and as JSON. */
 #include <math.h>
 #include <stdio.h>
 
-#include "convert/program/cmd_filters.h"
+#include "convert/program/filters_parts.h"
 #include "filters/aperture/flicker.h"
-
-double wf_filters_sharpness(const wf_aperture *a) {
-    return wf_response(a, 0, 0, WF_FILTERS_SHARP_AT, 0);
-}
-
-bool wf_filters_design(wf_filters_query *query, char *why, size_t why_size) {
-    const char *wish = wf_aperture_wish(query->aperture.kind, query->name);
-    query->designed = wish;
-    return !wish || (wf_design_parse(wish, &query->wish, why, why_size) &&
-                     wf_design_solve(&query->wish, &query->design, why, why_size));
-}
 
 /* ---- For people ---- */
 
@@ -33,7 +23,7 @@ static void print_row(const char *what, double value, const char *note) {
     printf("%-48s %9.5f%s\n", what, fabs(value) < 5e-6 ? 0 : value, note);
 }
 
-/* What the duality gap proves is another thing for each kind of wish (filters/design.h). */
+/* What the duality gap proves depends on the kind of wish (filters/aperture/design.h). */
 static void print_proof(const wf_filters_query *q) {
     const wf_design *d = &q->design;
     double least = sqrt(fmax(d->flicker * d->flicker - d->gap - d->slack, 0));

@@ -1,3 +1,4 @@
+/* What the parts of weft measure share. */
 #ifndef WF_CONVERT_PROGRAM_CMD_MEASURE_H
 #define WF_CONVERT_PROGRAM_CMD_MEASURE_H
 
@@ -6,24 +7,25 @@
 
 /* ---- Output of 'weft measure' ---- */
 
-/* Lines for people on standard output. */
+/* Prints the figures of a file as lines for people, on standard output. */
 void wf_measure_print(const char *path, const wf_measure_options *options,
                       const wf_figures *figures);
 
-/* An object with the figures; null where there is none. error (if not NULL) is what went wrong
- * instead. */
+/* Adds an object with the figures of a file; a figure that could not be measured is null. If
+ * error is not NULL, the object holds that message instead. */
 void wf_measure_json(wf_json *json, const char *path, const wf_figures *figures,
                      const char *error);
 
 /* ---- Limits ---- */
 
 typedef struct wf_limit {
-    const wf_figure_kind *kind; /* NULL: the order's verdict */
+    const wf_figure_kind *kind; /* NULL: the limit is on the verdict about field order */
     double value;
     const char *verdict;
 } wf_limit;
 
-/* "flicker.rms=0.01", "difference.psnr=40", "order.verdict=tff". verdict borrows from text. */
+/* Reads a limit such as "flicker.rms=0.01", "difference.psnr=40" or "order.verdict=tff". The
+ * limit's verdict borrows from text. */
 weft_status wf_limit_parse(const char *text, wf_limit *out, weft_error *err);
 
 /* WEFT_FAILED, saying so, where the figure exceeds the limit or could not be measured. */

@@ -1,3 +1,4 @@
+/* What the parts of weft info share. */
 #ifndef WF_CONVERT_PROGRAM_CMD_INFO_H
 #define WF_CONVERT_PROGRAM_CMD_INFO_H
 
@@ -17,12 +18,14 @@ void wf_fact_int(wf_facts *facts, const char *key, int64_t value);
 void wf_fact_real(wf_facts *facts, const char *key, double value);
 void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between);
 
-/* Tells the header of a YUV4MPEG2 file. *is_y4m is false, and nothing told, if it is not one.
- */
+/* Tells what the header of a YUV4MPEG2 file says. *is_y4m is false, and nothing is told, if the
+ * file is not one. */
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err);
 
-/* Video in containers: whether a name says so, and what it is. Its first frame is decoded. */
+/* Whether a file's name ends as that of a container of video does. */
 bool wf_info_is_video(const char *path);
+
+/* Tells what a container says of its video, the first frame of which is decoded. */
 weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err);
 
 #endif

@@ -1,8 +1,8 @@
-/* Video in containers for 'weft info', as the libav module reads it. */
+/* Part of weft info: video in containers, as the libav module reads it. */
 #include <string.h>
 #include <strings.h>
 
-#include "convert/program/cmd_info.h"
+#include "convert/program/info_facts.h"
 #include "convert/read/video.h"
 
 bool wf_info_is_video(const char *path) {

@@ -1,4 +1,5 @@
-/* --job: job files on the command line. */
+/* Loads the job files that --job names: options of the job, and options that the command has of
+ * its own. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@ typedef struct loading {
     wf_cmd_list *kept;
 } loading;
 
-/* A job option's index in the table of all of them. */
+/* The index of a job's option in the table of weft_option_at. */
 static size_t row_of(const char *name) {
     weft_option option;
     size_t i = 0;

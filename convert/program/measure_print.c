@@ -1,10 +1,10 @@
-/* What 'weft measure' prints: for people, and JSON. */
+/* Part of weft measure: the figures of a file, as lines for people or as a JSON object. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "convert/program/cmd_measure.h"
+#include "convert/program/measure_parts.h"
 #include "convert/read/television.h"
 
 /* ---- For people ---- */
@@ -106,7 +106,7 @@ void wf_measure_print(const char *path, const wf_measure_options *options,
 
 /* ---- For programs ---- */
 
-/* Members of one group follow each other in the table. */
+/* Adds the figures, those of a group as an object: in the table they follow each other. */
 static void add_figures(wf_json *json, const wf_figures *f) {
     const wf_figure_kind *kind;
     const char *group = NULL;

@@ -1,4 +1,4 @@
-/* Pictures that commands draw. */
+/* Has the plot module draw a picture into a file. */
 #include <string.h>
 
 #include "convert/base/module.h"

@@ -1,22 +1,24 @@
-/* Tables and JSON of 'weft filters'. */
+/* Part of weft filters: the list of apertures and the response of one, as tables and as JSON.
+ */
 #include <math.h>
 #include <stdio.h>
 
 #include "convert/base/json.h"
 #include "convert/program/cmd.h"
-#include "convert/program/cmd_filters.h"
+#include "convert/program/filters_parts.h"
 #include "filters/aperture/flicker.h"
 #include "filters/aperture/residue.h"
 
-#define STEPS   20   /* of the table, 0 to 1 cycle */
-#define FLICKER 0.5  /* cycles a line: what alternates from field to field */
-#define ZERO_DB -400 /* of a response of zero, for programs */
+#define STEPS   20   /* rows of the table, from 0 to 1 cycle, less one */
+#define FLICKER 0.5  /* cycles a line; what has it alternates from field to field */
+#define ZERO_DB -400 /* what JSON, which has no infinity, gives for a response of zero */
 
 static double residue(const wf_filters_query *q, const wf_aperture *a, double f) {
     return q->input_lines ? wf_line_residue(a, q->input_lines, q->raster.lines, f) : 0;
 }
 
-/* A line of the table: f cycles a line, a pixel and a field period. */
+/* A row of the table: responses at f cycles a line, f cycles a pixel and f cycles a field
+ * period. */
 typedef struct response {
     double f, vertical, horizontal, temporal, weights;
 } response;
@@ -34,7 +36,7 @@ static double people_db(double value) {
     return wf_filters_db(value, -INFINITY);
 }
 
-/* Rounding's -0.00000 is not worth a sign. */
+/* Prints a response and its decibels. What rounds to zero is printed without a sign. */
 static void print_pair(double value) {
     printf("   %8.5f %8.2f", fabs(value) < 5e-6 ? 0 : value, people_db(value));
 }

@@ -1,11 +1,11 @@
-/* Limits of 'weft measure', for pipelines to gate on. */
+/* Part of weft measure: --limit, by which a pipeline stops at a figure that is too bad. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/program/cmd_measure.h"
+#include "convert/program/measure_parts.h"
 #include "filters/base/spelling.h"
 
 #define VERDICT "order.verdict"

@@ -1,4 +1,5 @@
-/* How little flicker there is for a sharpness, and where the named apertures lie. */
+/* Part of weft filters: --frontier, the least flicker that there is for each sharpness, and
+ * where the named apertures lie. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +7,7 @@
 
 #include "convert/plot/plot.h"
 #include "convert/program/cmd.h"
-#include "convert/program/cmd_filters.h"
+#include "convert/program/filters_parts.h"
 #include "filters/aperture/flicker.h"
 #include "filters/base/sinc.h"
 
@@ -14,7 +15,7 @@
 #define CURVES     4
 #define MOST_MARKS 32
 
-/* What a curve is the frontier of. */
+/* The limits within which a curve shows the least flicker for each sharpness. */
 typedef struct curve_row {
     double support, overshoot, width; /* lines to each side; pixels */
 } curve_row;
@@ -36,11 +37,12 @@ static const curve_row rows[CURVES] = {{4, 0, 1}, {4, 0.05, 1}, {4, 0.08, 1}, {4
 
 /* ---- Named apertures ---- */
 
-/* ffmpeg's interlace filter reads progressive lines, which are boxes one line high, and weighs
- * them about every second one. */
+/* A filter over progressive lines, each of which is a box one line high: what ffmpeg's filter
+ * 'interlace' weighs around every second line. */
 typedef struct fir {
     const char *name;
-    double tap[3]; /* of the line itself and of those one and two lines away, to either side */
+    double
+        tap[3]; /* weights of the line itself, and of the lines one and two away on each side */
 } fir;
 
 static const fir peers[] = {{"ffmpeg linear", {0.5, 0.25, 0}},
@@ -53,7 +55,7 @@ static double fir_response(const void *user, double fx, double fy) {
     return sum * wf_sinc(fx) * wf_sinc(fy);
 }
 
-/* Apertures that are alike share a dot. */
+/* Adds a dot for an aperture, or its name to the dot of one that lies in the same place. */
 static void add_mark(frontier *f, const char *name, double flicker, double sharpness,
                      bool other) {
     for (size_t m = 0; m < f->marks; m++) {
@@ -103,7 +105,7 @@ static double sharpness_of(const wf_design *design) {
     return wf_stairs_response(&design->stairs, WF_FILTERS_SHARP_AT);
 }
 
-/* From a tenth of the response to the most that there is. */
+/* Solves for sharpnesses from 0.1 to the largest that the limits allow. */
 static weft_status trace(curve *c, weft_error *err) {
     wf_design design;
     weft_status status = solve(c, 0, 1, &design, err);

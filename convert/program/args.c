@@ -1,7 +1,6 @@
+/* Reads the arguments of a command by its table of options. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "convert/base/fail.h"
 #include "convert/program/cmd.h"
@@ -66,7 +65,8 @@ static weft_status unknown_option(const wf_cmd *cmd, const char *dashes, const c
 
 /* ---- Reading ---- */
 
-/* What is being read: argv[at], and operands collected so far at the front of argv. */
+/* Arguments while they are read: argv[at] is the current one. Operands that have been met are
+ * at the front of argv. */
 typedef struct reading {
     const wf_cmd *cmd;
     int argc, at;
@@ -101,13 +101,14 @@ static weft_status store(const reading *r, const char *name, size_t length, char
     return weft_job_set(r->job, word, value, err);
 }
 
-/* "-o -q": the value was forgotten. "-" is standard output, and "-3-5" a range. */
+/* Whether an argument is an option, so that the value before it was forgotten ("-o -q"). "-" is
+ * standard output, and "-3-5" is a range: neither is an option. */
 static bool looks_like_option(const wf_cmd *cmd, const char *argument) {
     if (argument[0] != '-' || !argument[1]) return false;
     return argument[1] == '-' || letter_option(cmd, argument[1]);
 }
 
-/* The value of option: after '=', or the next argument. */
+/* Finds the value of an option, which stands after its '=' or is the next argument. */
 static weft_status take_value(reading *r, const weft_option *option, char *attached,
                               char **value, weft_error *err) {
     *value = attached;
@@ -188,69 +189,4 @@ weft_status wf_cmd_meter(wf_meter *meter, const char *style, bool quiet, weft_er
     return wf_fail(err, WEFT_USAGE,
                    "--progress: '%.200s' will not do; it takes one of " WF_CMD_PROGRESS_STYLES,
                    style);
-}
-
-/* ---- Help ---- */
-
-#define HELP_COLUMNS 80
-#define HELP_INDENT  34
-
-/* Writes text wrapped between the columns; the cursor is at HELP_INDENT. */
-static void wrap(const char *text) {
-    size_t at = HELP_INDENT;
-    while (*text) {
-        size_t word = strcspn(text, " ");
-        if (at > HELP_INDENT && at + 1 + word > HELP_COLUMNS) {
-            printf("\n%*s", HELP_INDENT, "");
-            at = HELP_INDENT;
-        }
-        at += (size_t)printf("%s%.*s", at > HELP_INDENT ? " " : "", (int)word, text);
-        text += word + strspn(text + word, " ");
-    }
-    putchar('\n');
-}
-
-static void help_option(const weft_option *option, char letter) {
-    char dash[8] = "    ", left[96], right[256];
-    if (letter) snprintf(dash, sizeof dash, "-%c, ", letter);
-    int used = snprintf(left, sizeof left, "  %s--%s%s%s", dash, option->name,
-                        option->takes ? " " : "", option->takes ? option->takes : "");
-    snprintf(right, sizeof right, option->preset ? "%s [%s]" : "%s", option->help,
-             option->preset);
-    if (used < HELP_INDENT - 1)
-        printf("%-*s", HELP_INDENT, left);
-    else
-        printf("%s\n%*s", left, HELP_INDENT, "");
-    wrap(right);
-}
-
-void wf_cmd_help(const wf_cmd *cmd) {
-    static const weft_option help = {"help", NULL, NULL, "Show this.", ""};
-    printf("usage: weft %s %s\n\n%s", cmd->name, cmd->operands, cmd->text);
-    weft_option option;
-    char letter;
-    const char *group = "";
-    for (size_t i = 0; wf_cmd_option_at(cmd, i, &option, &letter); i++) {
-        if (strcmp(group, option.group)) printf("\n%s:\n", option.group);
-        group = option.group;
-        help_option(&option, letter);
-    }
-    help_option(&help, 'h');
-    if (cmd->notes) printf("\n%s", cmd->notes);
-}
-
-weft_status wf_cmd_print_json(char *text, weft_error *err) {
-    if (!text) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    fputs(text, stdout);
-    free(text);
-    return WEFT_OK;
-}
-
-void wf_cmd_say(const char *kind, const char *text) {
-    const char *no_color = getenv("NO_COLOR");
-    bool color = *kind && isatty(STDERR_FILENO) && !(no_color && *no_color);
-    if (color)
-        fprintf(stderr, "weft: \033[1m%s\033[0m%s\n", kind, text);
-    else
-        fprintf(stderr, "weft: %s%s\n", kind, text);
 }

@@ -1,15 +1,15 @@
-/* The plot of 'weft filters': curves for the plot module to draw. */
+/* Part of weft filters: the curves of --plot, for the plot module to draw. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "convert/plot/plot.h"
 #include "convert/program/cmd.h"
-#include "convert/program/cmd_filters.h"
+#include "convert/program/filters_parts.h"
 #include "filters/aperture/residue.h"
 
-#define POINTS      1001 /* odd: one of them is FLICKER */
-#define FLICKER     0.5  /* cycles a line: what alternates from field to field */
+#define POINTS      1001 /* an odd number, so that one of them is at FLICKER */
+#define FLICKER     0.5  /* cycles a line; what has it alternates from field to field */
 #define MOST_CURVES 16
 
 typedef struct curves {
@@ -36,7 +36,8 @@ static wf_plot_curve *keep_curve(curves *c, const char *name) {
     return &c->curve[c->count++];
 }
 
-/* Apertures that differ in width or in time only share a curve, and its place in the legend. */
+/* Adds the curve of an aperture, or its name to an equal curve: apertures that differ across
+ * the line or in time alone have the same vertical response. */
 static void add_aperture(const wf_filters_query *q, const wf_aperture *a, const char *name,
                          curves *c) {
     if (c->count == MOST_CURVES) return;

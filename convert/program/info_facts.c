@@ -1,0 +1,42 @@
+/* Part of weft info: facts as lines for people, or as members of a JSON object. */
+#include "convert/program/info_facts.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+void wf_fact_text(wf_facts *facts, const char *key, const char *value) {
+    if (facts->as_json) {
+        wf_json_text(&facts->json, key, value);
+        return;
+    }
+    printf("  ");
+    for (int column = 0; column < 18; column++) {
+        putchar(*key == '_' || !*key ? ' ' : *key);
+        key += *key != '\0';
+    }
+    puts(value);
+}
+
+void wf_fact_int(wf_facts *facts, const char *key, int64_t value) {
+    char text[24];
+    snprintf(text, sizeof text, "%" PRId64, value);
+    if (facts->as_json)
+        wf_json_int(&facts->json, key, value);
+    else
+        wf_fact_text(facts, key, text);
+}
+
+void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between) {
+    char text[48];
+    snprintf(text, sizeof text, "%" PRId64 "%c%" PRId64, value.num, between, value.den);
+    wf_fact_text(facts, key, text);
+}
+
+void wf_fact_real(wf_facts *facts, const char *key, double value) {
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", value);
+    if (facts->as_json)
+        wf_json_real(&facts->json, key, value);
+    else
+        wf_fact_text(facts, key, text);
+}
