@@ -6,6 +6,7 @@
 
 #include "color/line/curve.h"
 #include "color/line/luma.h"
+#include "filters/base/isa.h"
 
 /* Light beyond this, and R'G'B' beyond +-WF_MOST_SIGNAL, is cut off: every code is saturated
  * there, and no difference of two such samples overflows. */
@@ -36,7 +37,6 @@ typedef struct wf_quantizer {
 /* The inner loops of colour, one table for each instruction set they are compiled for. Every
  * table gives the same bits. */
 typedef struct wf_line_ops {
-    const char *name;
     /* In place, planes of count samples; NaN counts as 0. */
     void (*mix)(const wf_mix *mix, float *r, float *g, float *b, size_t count);
     void (*curve[WF_CURVE_KINDS])(const wf_curve *curve, float *light, size_t count);
@@ -51,10 +51,6 @@ typedef struct wf_line_ops {
     void (*quantize)(const wf_quantizer *q, uint16_t *code, const float *signal, size_t count);
 } wf_line_ops;
 
-/* The tables by index, slowest first; NULL past the last one this processor can run. */
-const wf_line_ops *wf_line_ops_at(size_t index);
-
-/* The fastest of them. */
-const wf_line_ops *wf_line_ops_best(void);
+WF_ISA_DECLARE(wf_line_ops);
 
 #endif

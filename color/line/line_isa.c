@@ -1,4 +1,4 @@
-/* Compiled once for each instruction set; WF_ISA names the table (color/line.c lists them).
+/* The inner loops of color: curves, matrices, chroma and codes along lines of samples.
  * Nothing here branches on a sample, so that the compiler makes vectors of all of it. */
 #include "color/line/line.h"
 
@@ -6,13 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TEXT_(a)    #a
-#define TEXT(a)     TEXT_(a)
+#include "filters/base/isa_file.h"
 
 /* ---- Powers and logarithms ---- */
 
@@ -182,9 +176,7 @@ static void quantize(const wf_quantizer *quantizer, uint16_t *restrict code,
     }
 }
 
-const wf_line_ops JOIN(wf_line_ops_, WF_ISA);
-const wf_line_ops JOIN(wf_line_ops_, WF_ISA) = {
-    .name = TEXT(WF_ISA),
+const wf_line_ops WF_ISA_TABLE(wf_line_ops) = {
     .mix = mix,
     .curve =
         {[WF_CURVE_POWER] = power_curve, [WF_CURVE_PQ] = pq_curve, [WF_CURVE_HLG] = hlg_curve},

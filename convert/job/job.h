@@ -7,7 +7,7 @@
 #include "convert/base/fail.h"
 #include "convert/job/choices.h"
 #include "filters/aperture/aperture.h"
-#include "filters/raster/raster.h"
+#include "filters/raster/timing.h"
 #include "tracer/sample/sampler.h"
 
 /* Everything a conversion was asked for; convert/options.c fills it, one table row an option.

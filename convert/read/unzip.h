@@ -5,11 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "filters/base/isa.h"
+
 /* What follows inflation in OpenEXR's ZIP and ZIPS chunks: bytes were split into even and odd
  * ones and replaced by differences. One table for each instruction set; all give the same
  * bytes. */
 typedef struct wf_unzip_ops {
-    const char *name;
     /* Undoes differences and split of count inflated bytes. True if some 16-bit word of the
      * result has all exponent bits of a half set: an Inf or a NaN, where the chunk holds
      * halves. */
@@ -19,8 +20,6 @@ typedef struct wf_unzip_ops {
     bool (*odd_floats)(const float *value, size_t count);
 } wf_unzip_ops;
 
-/* The tables by index, slowest first; NULL past the last one this processor can run. */
-const wf_unzip_ops *wf_unzip_ops_at(size_t index);
-const wf_unzip_ops *wf_unzip_ops_best(void);
+WF_ISA_DECLARE(wf_unzip_ops);
 
 #endif

@@ -1,4 +1,4 @@
-/* Compiled once for each instruction set; WF_ISA names the table (convert/unzip.c lists them).
+/* Undoes what OpenEXR's ZIP compression does to bytes before it deflates them.
  *
  * The differences of a chunk run through its even bytes and on into its odd ones:
  *     t[0] = d[0], t[i] = t[i-1] + d[i] - 128 (mod 256)
@@ -12,13 +12,7 @@
 #include <immintrin.h>
 #endif
 
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TEXT_(a)    #a
-#define TEXT(a)     TEXT_(a)
+#include "filters/base/isa_file.h"
 
 /* Sum of bytes, modulo 256. */
 static uint8_t byte_sum(const uint8_t *byte, size_t count) {
@@ -217,9 +211,7 @@ static bool odd_floats(const float *value, size_t count) {
     return seen;
 }
 
-extern const wf_unzip_ops JOIN(wf_unzip_ops_, WF_ISA);
-const wf_unzip_ops JOIN(wf_unzip_ops_, WF_ISA) = {
-    .name = TEXT(WF_ISA),
+const wf_unzip_ops WF_ISA_TABLE(wf_unzip_ops) = {
     .merge = merge,
     .odd_halves = odd_halves,
     .odd_floats = odd_floats,

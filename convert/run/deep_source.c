@@ -34,12 +34,12 @@ static int64_t within(int64_t v, int64_t count) {
 /* The frames that its window touches, and its own, in which some renderers put samples of times
  * outside the frame. */
 static void units(void *self, int64_t field, int64_t *first, int64_t *last) {
-    static const double anchors[] = {[WF_START] = 0, [WF_CENTER] = 0.5, [WF_END] = 1};
     const samples *s = self;
     wf_gather_desc d = wf_setup_gather(s->job);
     int per_frame = instants_a_frame(s->job);
     int64_t instant = wf_raster_instant(&s->job->raster, field), own = instant / per_frame;
-    double tau = wf_ratio_value(d.width), from = (double)instant - anchors[d.position] * tau;
+    double tau = wf_ratio_value(d.width);
+    double from = (double)instant - wf_position_anchor(d.position) * tau;
     double skew = wf_ratio_given(d.skew) ? wf_ratio_value(d.skew) : 0;
     int64_t low = (int64_t)floor(from / per_frame);
     int64_t high = (int64_t)ceil((from + tau + skew) / per_frame) - 1;

@@ -235,11 +235,11 @@ static weft_status finish_field(weft_fields *f, weft_error *err) {
 
 /* A field's window may hold samples before the instant of `field`: then it is not done. */
 static bool is_done(const weft_fields *f, int64_t n, int64_t field) {
-    static const double after[] = {[WF_START] = 1, [WF_CENTER] = 0.5, [WF_END] = 0};
     int64_t instant = wf_raster_instant(&f->job->raster, n);
     int64_t limit = wf_raster_instant(&f->job->raster, field);
     double skew = wf_ratio_given(f->desc.skew) ? wf_ratio_value(f->desc.skew) : 0;
-    double end = after[f->desc.position] * wf_ratio_value(f->desc.width) + skew;
+    double after = 1 - wf_position_anchor(f->desc.position);
+    double end = after * wf_ratio_value(f->desc.width) + skew;
     return (double)instant + end <= (double)limit && instant < limit;
 }
 

@@ -355,6 +355,6 @@ double wf_response(const wf_aperture *a, double tau, double fx, double fy, doubl
 
 double wf_aperture_value(const wf_aperture *a, double tau, double u, double v, double q) {
     double height, half_u;
-    wf_profiles_best()[a->kind->profile](a, tau, 1, &v, &q, &height, &half_u);
+    wf_profile_ops_best()->of[a->kind->profile](a, tau, 1, &v, &q, &height, &half_u);
     return fabs(q) <= tau / 2 && fabs(u) <= half_u ? height : 0;
 }

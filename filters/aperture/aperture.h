@@ -6,9 +6,6 @@
 #include "filters/aperture/stairs.h"
 #include "filters/base/rational.h"
 
-/* Where the temporal window of a field lies about its instant. */
-typedef enum wf_position { WF_START, WF_CENTER, WF_END } wf_position;
-
 typedef struct wf_aperture wf_aperture;
 
 /* How h depends on v, q and u: one height for all |u| <= half_u(v). */

@@ -1,15 +1,8 @@
-/* The apertures themselves (resampling.md, Apertures), as loops. Compiled once for each
- * instruction set; WF_ISA names the table (filters/profile.c lists them). */
+/* The apertures themselves (filters/README.md, Apertures), as loops over samples. */
 #include <math.h>
 
 #include "filters/aperture/profile.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_profiles_, WF_ISA)
+#include "filters/base/isa_file.h"
 
 #define PROFILE                                                                                \
     const wf_aperture *a, double tau, int count, const double *restrict v,                     \
@@ -87,10 +80,15 @@ static void design(PROFILE) {
     }
 }
 
-extern wf_profile_fn *const TABLE[WF_PROFILES];
-wf_profile_fn *const TABLE[WF_PROFILES] = {
-    [WF_PROFILE_LINE] = line,       [WF_PROFILE_BOX] = box,
-    [WF_PROFILE_NOTCH] = notch,     [WF_PROFILE_SHAPED] = shaped,
-    [WF_PROFILE_DIAMOND] = diamond, [WF_PROFILE_MITCHELL] = mitchell,
-    [WF_PROFILE_DESIGN] = design,
+const wf_profile_ops WF_ISA_TABLE(wf_profile_ops) = {
+    .of =
+        {
+            [WF_PROFILE_LINE] = line,
+            [WF_PROFILE_BOX] = box,
+            [WF_PROFILE_NOTCH] = notch,
+            [WF_PROFILE_SHAPED] = shaped,
+            [WF_PROFILE_DIAMOND] = diamond,
+            [WF_PROFILE_MITCHELL] = mitchell,
+            [WF_PROFILE_DESIGN] = design,
+        },
 };

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "filters/base/isa.h"
-
 /* Samples this near to the instant count where the window is one (resampling.md, Apertures). */
 #define INSTANT 0x1p-12
 
@@ -17,8 +15,7 @@ static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) 
 }
 
 static double middle_of(const wf_gather_desc *d) {
-    static const double share[] = {[WF_START] = 0.5, [WF_CENTER] = 0, [WF_END] = -0.5};
-    return share[d->position] * wf_ratio_value(d->width);
+    return (0.5 - wf_position_anchor(d->position)) * wf_ratio_value(d->width);
 }
 
 static double skew_of(const wf_gather_desc *d) {
@@ -98,20 +95,14 @@ void wf_gather_free(wf_gather *g) {
 
 /* ---- Adding ---- */
 
-static wf_gather_fn *const levels[] = {
-    wf_gather_samples_v1,
-#if defined(__x86_64__)
-    wf_gather_samples_v3,
-    wf_gather_samples_v4,
-#endif
-};
+WF_ISA_DISPATCH(wf_gather_ops)
 
 double wf_gather_apart(const wf_gather *g, int64_t field) {
     return instants_apart(&g->desc, field, g->field);
 }
 
 void wf_gather_add(wf_gather *g, const wf_samples *samples) {
-    levels[wf_isa_levels() - 1](g, samples, wf_gather_apart(g, samples->field));
+    wf_gather_ops_best()->add(g, samples, wf_gather_apart(g, samples->field));
 }
 
 void wf_gather_fill(wf_gather *g, const wf_sample_tile *tile, const float rgb[3]) {

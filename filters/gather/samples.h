@@ -3,6 +3,7 @@
 
 #include "filters/aperture/aperture.h"
 #include "filters/raster/raster.h"
+#include "filters/raster/timing.h"
 
 /* Irregular samples (x, y, t, colour, weight) to fields (resampling.md, Weights): a pixel is
  * sum(h w c) / sum(h w) over the samples that its aperture reaches. Samples may come in any

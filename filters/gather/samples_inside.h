@@ -1,6 +1,7 @@
 #ifndef WF_FILTERS_GATHER_SAMPLES_INSIDE_H
 #define WF_FILTERS_GATHER_SAMPLES_INSIDE_H
 
+#include "filters/base/isa.h"
 #include "filters/gather/samples.h"
 
 /* Between samples.c and the loops compiled for each instruction set. */
@@ -23,14 +24,16 @@ struct wf_gather {
 /* How many instants of fields lie between a field and the gather's. */
 double wf_gather_apart(const wf_gather *gather, int64_t field);
 
-/* Adds samples; apart: instants from the field that they count in to the gather's. */
-typedef void wf_gather_fn(wf_gather *gather, const wf_samples *samples, double apart);
+typedef struct wf_gather_ops {
+    /* Adds samples; apart: instants from the field that they count in to the gather's. */
+    void (*add)(wf_gather *gather, const wf_samples *samples, double apart);
+} wf_gather_ops;
+
+WF_ISA_DECLARE(wf_gather_ops);
 
 /* The sums of a line: of pixel i at [i], where it is held. */
 static inline wf_pixel_sum *wf_gather_sums(const wf_gather *g, int line) {
     return g->sum + (line - g->held.first) * (g->held.right - g->held.left) - g->held.left;
 }
-
-wf_gather_fn wf_gather_samples_v1, wf_gather_samples_v3, wf_gather_samples_v4;
 
 #endif

@@ -1,5 +1,4 @@
-/* Samples into the sums of the pixels that they reach. Compiled once for each instruction set;
- * WF_ISA is the suffix (filters/samples.c lists them). All give the same bits.
+/* Samples into the sums of the pixels that they reach.
  *
  * Samples mostly come many to a cell of the raster: those that follow one another within one
  * pixel of one line are taken together, line by line and pixel by pixel of what they reach, in
@@ -7,13 +6,8 @@
 #include <math.h>
 
 #include "filters/aperture/profile.h"
+#include "filters/base/isa_file.h"
 #include "filters/gather/samples_inside.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
 
 #define RUN   64 /* samples taken together */
 #define LANES 8
@@ -102,8 +96,9 @@ static void find_heights(const wf_gather *g, run *r, int j) {
         r->q[i] = r->t[i] - late;
     }
     static const double none[RUN];
-    wf_profiles_best()[a->kind->profile](a, instant ? 1 : g->tau, r->padded, r->v,
-                                         instant ? none : r->q, r->height, r->half_u);
+    wf_profile_fn *profile = WF_ISA_TABLE(wf_profile_ops).of[a->kind->profile];
+    profile(a, instant ? 1 : g->tau, r->padded, r->v, instant ? none : r->q, r->height,
+            r->half_u);
     for (int i = 0; i < r->padded; i++) {
         double height = tent ? r->height[i] * (1 - fabs(r->v[i])) : r->height[i];
         r->height[i] = fabs(r->q[i]) <= half ? height : 0;
@@ -162,7 +157,7 @@ static void add_run(wf_gather *g, run *r) {
     for (int line = first; line <= last; line++) add_to_line(g, r, line, low[0], high[0]);
 }
 
-void JOIN(wf_gather_samples_, WF_ISA)(wf_gather *g, const wf_samples *s, double apart) {
+static void add(wf_gather *g, const wf_samples *s, double apart) {
     run r;
     for (size_t first = 0; first < s->count; first += (size_t)r.count) {
         r.count = same_cell(s, first);
@@ -170,3 +165,5 @@ void JOIN(wf_gather_samples_, WF_ISA)(wf_gather *g, const wf_samples *s, double 
         add_run(g, &r);
     }
 }
+
+const wf_gather_ops WF_ISA_TABLE(wf_gather_ops) = {.add = add};

@@ -1,6 +1,12 @@
+/* Windows of fields and cells of subframes, counted in ticks. */
 #include "filters/raster/timing.h"
 
 #include <stdio.h>
+
+double wf_position_anchor(wf_position position) {
+    static const double anchors[] = {[WF_START] = 0, [WF_CENTER] = 0.5, [WF_END] = 1};
+    return anchors[position];
+}
 
 /* Ticks stay below this at field 10^8, far inside 127 bits. */
 #define FINEST_TICK_RATE ((wf_ticks)1 << 96)
@@ -36,13 +42,13 @@ bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, si
     }
     rate *= desc->skew.den * lines;
     wf_ticks width = scaled(desc->width, rate);
-    const wf_ticks opens[] = {[WF_START] = 0, [WF_CENTER] = -width / 2, [WF_END] = -width};
+    int half_widths = (int)(2 * wf_position_anchor(desc->position)); /* width is even */
     *timing = (wf_timing){
         .tick_rate = rate,
         .cell = scaled(cell, rate),
         .cell_zero = desc->subframe_center ? -scaled(cell, rate) / 2 : 0,
         .width = width,
-        .opens = opens[desc->position],
+        .opens = -half_widths * (width / 2),
         .skew_line = scaled(desc->skew, rate) / lines,
         .subframes = desc->subframes,
         .raster = desc->raster,

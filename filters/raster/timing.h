@@ -4,11 +4,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "filters/aperture/aperture.h"
 #include "filters/raster/raster.h"
 
-/* Which subframes a field's window meets, and by how much (resampling.md, Time). Everything is
- * an integer count of one tick, so that a window that ends where a cell begins does not meet
+/* Where the temporal window of a field lies about its instant: it begins there, is centered on
+ * it, or ends there. */
+typedef enum wf_position { WF_START, WF_CENTER, WF_END } wf_position;
+
+/* Where in the window the instant lies: 0, 1/2 or 1 widths after its beginning. */
+double wf_position_anchor(wf_position position);
+
+/* Which subframes a field's window meets, and by how much (filters/README.md, Time). Everything
+ * is an integer count of one tick, so that a window that ends where a cell begins does not meet
  * it, at field 0 as at field 10^7. */
 typedef struct wf_timing_desc {
     const wf_raster *raster;

@@ -4,11 +4,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "filters/base/isa.h"
+
 /* The inner loops of the resampler, one table for each instruction set they are compiled for.
  * Every table gives the same bits: products and sums are rounded separately in double, in the
  * same order, whatever the vector width. */
 typedef struct wf_row_ops {
-    const char *name;
     /* sum[i] += weight * pixel[i] */
     void (*add_half)(double *sum, const uint16_t *pixel, double weight, size_t count);
     void (*add_float)(double *sum, const float *pixel, double weight, size_t count);
@@ -24,10 +25,6 @@ typedef struct wf_row_ops {
                   size_t count);
 } wf_row_ops;
 
-/* The tables by index, slowest first; NULL past the last one this processor can run. */
-const wf_row_ops *wf_row_ops_at(size_t index);
-
-/* The fastest of them. */
-const wf_row_ops *wf_row_ops_best(void);
+WF_ISA_DECLARE(wf_row_ops);
 
 #endif

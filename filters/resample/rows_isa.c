@@ -1,20 +1,12 @@
-/* Compiled once for each instruction set; WF_ISA names the table (filters/rows.c lists them).
- */
+/* Rows of samples times weights into sums: the inner loops of the resampler. */
 #include "filters/resample/rows.h"
 
 #include "filters/base/half.h"
+#include "filters/base/isa_file.h"
 
 #if defined(__F16C__)
 #include <immintrin.h>
 #endif
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TEXT_(a)    #a
-#define TEXT(a)     TEXT_(a)
 
 static inline float half_value(uint16_t half) {
 #if defined(__F16C__)
@@ -90,9 +82,7 @@ static void split(float *restrict lane, const double *restrict row, size_t lanes
     }
 }
 
-const wf_row_ops JOIN(wf_row_ops_, WF_ISA);
-const wf_row_ops JOIN(wf_row_ops_, WF_ISA) = {
-    .name = TEXT(WF_ISA),
+const wf_row_ops WF_ISA_TABLE(wf_row_ops) = {
     .add_half = add_half,
     .add_float = add_float,
     .set_rows = set_rows,

@@ -81,7 +81,8 @@ static void measure_ocio(const field *f, const wf_ocio_query *query, const char 
         printf("%s\n", why);
 }
 
-static void measure_level(const wf_line_ops *ops, const field *f, const wf_curve *curve) {
+static void measure_level(size_t level, const field *f, const wf_curve *curve) {
+    const wf_line_ops *ops = wf_line_ops_at(level);
     double best = 1;
     for (int run = 0; run < RUNS; run++) {
         double spent = 0;
@@ -94,7 +95,7 @@ static void measure_level(const wf_line_ops *ops, const field *f, const wf_curve
         }
         if (spent < best) best = spent;
     }
-    printf("%s: the default curve %6.2f ms\n", ops->name, 1e3 * best);
+    printf("%s: the default curve %6.2f ms\n", wf_isa_name(level), 1e3 * best);
 }
 
 static void measure_all(const field *f, const char *config) {
@@ -118,11 +119,10 @@ int main(int argc, char **argv) {
                .scratch = malloc(4 * WIDTH * sizeof(float)),
                .code = malloc(3 * WIDTH * sizeof(uint16_t))};
     if (!f.light || !f.line || !f.scratch || !f.code) return 1;
-    const wf_line_ops *ops;
     fill(f.light);
     measure_all(&f, argc > 1 ? argv[1] : NULL);
-    for (size_t level = 0; (ops = wf_line_ops_at(level)); level++)
-        measure_level(ops, &f, &wf_curve_bt1886);
+    for (size_t level = 0; level < wf_isa_levels(); level++)
+        measure_level(level, &f, &wf_curve_bt1886);
     free(f.light);
     free(f.line);
     free(f.scratch);

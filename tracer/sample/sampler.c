@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "filters/base/isa.h"
 #include "tracer/sample/sampler_inside.h"
 
 struct wf_sampler {
@@ -16,13 +15,7 @@ struct wf_sampler {
     float height;
 };
 
-static const wf_sampler_ops *const levels[] = {
-    &wf_sampler_v1,
-#if defined(__x86_64__)
-    &wf_sampler_v3,
-    &wf_sampler_v4,
-#endif
-};
+WF_ISA_DISPATCH(wf_sampler_ops)
 
 /* ---- Sobol's sequence ---- */
 
@@ -86,7 +79,7 @@ wf_sampler *wf_sampler_new(wf_sampler_kind kind, int count, uint64_t seed) {
     wf_sampler *s = calloc(1, sizeof *s);
     if (!s) return NULL;
     *s = (wf_sampler){.kind = kind, .count = count, .seed = seed};
-    s->ops = levels[wf_isa_levels() - 1];
+    s->ops = wf_sampler_ops_best();
     if (make_sobol(s) && make_strata(s)) return s;
     wf_sampler_free(s);
     return NULL;

@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_SAMPLE_SAMPLER_INSIDE_H
 #define WF_TRACER_SAMPLE_SAMPLER_INSIDE_H
 
+#include "filters/base/isa.h"
 #include "tracer/sample/sampler.h"
 
 /* Nested uniform scrambling in Owen's sense of points whose bits are given in reverse order, by
@@ -16,6 +17,6 @@ typedef struct wf_sampler_ops {
     wf_random_fn *random;
 } wf_sampler_ops;
 
-extern const wf_sampler_ops wf_sampler_v1, wf_sampler_v3, wf_sampler_v4;
+WF_ISA_DECLARE(wf_sampler_ops);
 
 #endif

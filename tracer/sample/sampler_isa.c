@@ -1,13 +1,6 @@
-/* Hashes of whole cells. Compiled once for each instruction set; WF_ISA names the table
- * (tracer/sampler.c lists them). */
+/* Hashes of whole cells: where samples lie in them. */
+#include "filters/base/isa_file.h"
 #include "tracer/sample/sampler_inside.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_sampler_, WF_ISA)
 
 static inline uint32_t reverse_bits(uint32_t v) {
     v = (v >> 1 & 0x55555555u) | (v & 0x55555555u) << 1;
@@ -42,4 +35,4 @@ static void random(int count, uint32_t seed, float *out) {
     }
 }
 
-const wf_sampler_ops TABLE = {scramble, random};
+const wf_sampler_ops WF_ISA_TABLE(wf_sampler_ops) = {scramble, random};

@@ -6,11 +6,6 @@
 
 /* ---- Life ---- */
 
-static double anchor_of(wf_position position) {
-    static const double anchors[] = {[WF_START] = 0, [WF_CENTER] = 0.5, [WF_END] = 1};
-    return anchors[position];
-}
-
 wf_rational wf_sampling_period(const wf_sampling *s) {
     return wf_raster_field_period(&s->raster);
 }
@@ -38,7 +33,7 @@ wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
     s->raster = *desc->gather.raster;
     s->tau = wf_ratio_value(desc->gather.width);
     s->skew = wf_ratio_given(desc->gather.skew) ? wf_ratio_value(desc->gather.skew) : 0;
-    s->anchor = anchor_of(desc->gather.position);
+    s->anchor = wf_position_anchor(desc->gather.position);
     s->instants = s->skew > 0 && !(s->tau > 0); /* each line has one of its own */
     if (!make_parts(s)) {
         wf_sampling_free(s);

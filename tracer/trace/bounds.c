@@ -194,7 +194,7 @@ wf_shaft wf_shaft_new(wf_bounds o, wf_bounds d, double most_s) {
 
 wf_shaft wf_shaft_of_rays(const wf_rays *r, double most_s) {
     wf_bounds o, d;
-    wf_packet_best()->box(r, &o, &d);
+    wf_packet_ops_best()->box(r, &o, &d);
     return wf_shaft_new(o, d, most_s);
 }
 

@@ -1,24 +1,9 @@
+/* Which of the loops over programs of solids is used, and hits to begin with. */
 #include "tracer/trace/csg.h"
 
 #include <math.h>
 
-#include "filters/base/isa.h"
-
-extern const wf_csg_ops wf_csg_v1;
-#if defined(__x86_64__)
-extern const wf_csg_ops wf_csg_v3, wf_csg_v4;
-static const wf_csg_ops *const levels[] = {&wf_csg_v1, &wf_csg_v3, &wf_csg_v4};
-#else
-static const wf_csg_ops *const levels[] = {&wf_csg_v1};
-#endif
-
-const wf_csg_ops *wf_csg_at(size_t level) {
-    return level < (size_t)wf_isa_levels() ? levels[level] : NULL;
-}
-
-const wf_csg_ops *wf_csg_best(void) {
-    return levels[wf_isa_levels() - 1];
-}
+WF_ISA_DISPATCH(wf_csg_ops)
 
 void wf_hits_clear(wf_hits *hits) {
     for (int i = 0; i < WF_PACKET; i++) {

@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_TRACE_CSG_H
 #define WF_TRACER_TRACE_CSG_H
 
+#include "filters/base/isa.h"
 #include "tracer/trace/solid.h"
 
 /* Constructive solid geometry along rays, by classification: the end of a run of one solid is
@@ -47,7 +48,6 @@ typedef struct wf_csg_ops {
     void (*inside)(const wf_csg *csg, const double *s, wf_csg_entry *stack, uint8_t *inside);
 } wf_csg_ops;
 
-const wf_csg_ops *wf_csg_best(void);
-const wf_csg_ops *wf_csg_at(size_t level); /* slowest first; NULL past the last */
+WF_ISA_DECLARE(wf_csg_ops);
 
 #endif

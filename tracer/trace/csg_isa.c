@@ -1,16 +1,9 @@
-/* Programs of solids along packets of rays. Compiled once for each instruction set; WF_ISA
- * names the table (tracer/csg.c lists them). Loops run over all WF_PACKET places. */
+/* Programs of solids along packets of rays. Loops run over all WF_PACKET places. */
 #include <math.h>
 #include <string.h>
 
+#include "filters/base/isa_file.h"
 #include "tracer/trace/csg.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_csg_, WF_ISA)
 
 static inline double least(double a, double b) {
     return a < b ? a : b;
@@ -180,5 +173,4 @@ static void inside(const wf_csg *c, const double *s, wf_csg_entry *stack, uint8_
     memcpy(in, stack->in, WF_PACKET);
 }
 
-extern const wf_csg_ops TABLE;
-const wf_csg_ops TABLE = {nearest, inside};
+const wf_csg_ops WF_ISA_TABLE(wf_csg_ops) = {nearest, inside};

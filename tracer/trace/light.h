@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_TRACE_LIGHT_H
 #define WF_TRACER_TRACE_LIGHT_H
 
+#include "filters/base/isa.h"
 #include "tracer/trace/packet.h"
 
 /* What the rays of a packet see, each its own. Rays that see nothing, or what is unlit, take no
@@ -35,6 +36,6 @@ typedef struct wf_light_ops {
                 double rgb[3][WF_PACKET]);
 } wf_light_ops;
 
-const wf_light_ops *wf_light_best(void);
+WF_ISA_DECLARE(wf_light_ops);
 
 #endif

@@ -1,15 +1,8 @@
-/* Light on packets. Compiled once for each instruction set; WF_ISA names the table
- * (tracer/light.c lists them). */
+/* Light on packets: which way it falls, and what Lambert and Blinn make of it. */
 #include <math.h>
 
+#include "filters/base/isa_file.h"
 #include "tracer/trace/light.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_light_, WF_ISA)
 
 static void face(const wf_rays *restrict r, wf_points *restrict n) {
     for (int i = 0; i < WF_PACKET; i++) {
@@ -134,5 +127,5 @@ static void sum(const wf_surfaces *restrict f, const double *restrict seen,
     }
 }
 
-extern const wf_light_ops TABLE;
-const wf_light_ops TABLE = {face, choose, off_surface, ways, against, faces_light, add, sum};
+const wf_light_ops WF_ISA_TABLE(wf_light_ops) = {face,    choose,      off_surface, ways,
+                                                 against, faces_light, add,         sum};

@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_TRACE_PACKET_H
 #define WF_TRACER_TRACE_PACKET_H
 
+#include "filters/base/isa.h"
 #include "tracer/scene/motion.h"
 #include "tracer/trace/csg.h"
 
@@ -40,9 +41,6 @@ typedef struct wf_packet_ops {
     void (*box)(const wf_rays *rays, wf_bounds *o, wf_bounds *d);
 } wf_packet_ops;
 
-extern const wf_packet_ops wf_packet_v1, wf_packet_v3, wf_packet_v4;
-
-const wf_packet_ops *wf_packet_best(void);
-const wf_packet_ops *wf_packet_at(size_t level); /* slowest first; NULL past the last */
+WF_ISA_DECLARE(wf_packet_ops);
 
 #endif

@@ -1,16 +1,9 @@
-/* Packets through operators and into hits. Compiled once for each instruction set; WF_ISA names
- * the table (tracer/packet.c lists them). */
+/* Packets through operators and into hits. */
 #include <math.h>
 
+#include "filters/base/isa_file.h"
 #include "tracer/trace/packet.h"
 #include "tracer/trace/sincos.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_packet_, WF_ISA)
 
 /* ---- Rays into spaces ---- */
 
@@ -207,6 +200,6 @@ static void no_second_run(wf_runs *runs) {
     }
 }
 
-const wf_packet_ops TABLE = {place,         drift_in,      spin_in, turn, spin_out,
-                             place_normals, reach,         nearer,  unit, rounding,
-                             farthest,      no_second_run, box};
+const wf_packet_ops WF_ISA_TABLE(wf_packet_ops) = {
+    place, drift_in, spin_in,  turn,          spin_out, place_normals, reach, nearer,
+    unit,  rounding, farthest, no_second_run, box};

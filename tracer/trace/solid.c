@@ -1,41 +1,9 @@
+/* Kinds of solids: which points they hold, their bounds, and which of their loops is used. */
 #include "tracer/trace/solid.h"
 
 #include <math.h>
 
-#include "filters/base/isa.h"
-
-/* ---- Dispatch ---- */
-
-#define LEVEL(v)                                                                               \
-    extern wf_intersect_fn *const wf_intersect_##v[WF_SOLID_KINDS];                            \
-    extern wf_normals_fn *const wf_normals_##v[WF_SOLID_KINDS];
-LEVEL(v1)
-#if defined(__x86_64__)
-LEVEL(v3)
-LEVEL(v4)
-static wf_intersect_fn *const *const levels[] = {wf_intersect_v1, wf_intersect_v3,
-                                                 wf_intersect_v4};
-static wf_normals_fn *const *const normals[] = {wf_normals_v1, wf_normals_v3, wf_normals_v4};
-#else
-static wf_intersect_fn *const *const levels[] = {wf_intersect_v1};
-static wf_normals_fn *const *const normals[] = {wf_normals_v1};
-#endif
-
-wf_intersect_fn *const *wf_intersect_at(size_t level) {
-    return level < (size_t)wf_isa_levels() ? levels[level] : NULL;
-}
-
-wf_intersect_fn *const *wf_intersect_best(void) {
-    return levels[wf_isa_levels() - 1];
-}
-
-wf_normals_fn *const *wf_normals_at(size_t level) {
-    return level < (size_t)wf_isa_levels() ? normals[level] : NULL;
-}
-
-wf_normals_fn *const *wf_normals_best(void) {
-    return normals[wf_isa_levels() - 1];
-}
+WF_ISA_DISPATCH(wf_solid_ops)
 
 /* ---- Points ---- */
 

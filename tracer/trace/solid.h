@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_TRACE_SOLID_H
 #define WF_TRACER_TRACE_SOLID_H
 
+#include "filters/base/isa.h"
 #include "tracer/scene/scene.h"
 
 /* Rays travel in packets, one array for each component, so that loops over them vectorise.
@@ -50,11 +51,12 @@ typedef struct wf_solid_type {
 
 const wf_solid_type *wf_solid_type_of(wf_solid_kind kind);
 
-/* Ray loops by kind, one table for each instruction set, slowest first; NULL past the last one
- * this processor runs. All give the same bits. */
-wf_intersect_fn *const *wf_intersect_at(size_t level);
-wf_intersect_fn *const *wf_intersect_best(void);
-wf_normals_fn *const *wf_normals_at(size_t level);
-wf_normals_fn *const *wf_normals_best(void);
+/* Loops over packets, by kind. */
+typedef struct wf_solid_ops {
+    wf_intersect_fn *intersect[WF_SOLID_KINDS];
+    wf_normals_fn *normals[WF_SOLID_KINDS];
+} wf_solid_ops;
+
+WF_ISA_DECLARE(wf_solid_ops);
 
 #endif

@@ -1,5 +1,4 @@
-/* Rays against solids in canonical form, a packet at a time. Compiled once for each instruction
- * set; WF_ISA names the table (tracer/solid.c lists them).
+/* Rays against solids in canonical form, a packet at a time. Tables are by kind.
  *
  * Nothing here has a tolerance of its own: lengths scale, and a solid a millionth of a unit
  * across is as round as one of a million. Quadratics are solved about the ray's closest
@@ -7,15 +6,10 @@
  * is small beside the solid. */
 #include <math.h>
 
+#include "filters/base/isa_file.h"
 #include "tracer/trace/double_double.h"
 #include "tracer/trace/quartic.h"
 #include "tracer/trace/solid.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
 
 static int padded(const wf_rays *r) {
     return (r->count + 7) / 8 * 8;
@@ -401,18 +395,27 @@ static void polyhedron_normals(NORMALS) {
     }
 }
 
-extern wf_intersect_fn *const JOIN(wf_intersect_, WF_ISA)[WF_SOLID_KINDS];
-wf_intersect_fn *const JOIN(wf_intersect_, WF_ISA)[WF_SOLID_KINDS] = {
-    [WF_SPHERE] = sphere,     [WF_BOX] = box,
-    [WF_CYLINDER] = cylinder, [WF_CONE] = cone,
-    [WF_TORUS] = torus,       [WF_HALFSPACE] = halfspace,
-    [WF_QUADRIC] = quadric,   [WF_POLYHEDRON] = polyhedron,
-};
-
-extern wf_normals_fn *const JOIN(wf_normals_, WF_ISA)[WF_SOLID_KINDS];
-wf_normals_fn *const JOIN(wf_normals_, WF_ISA)[WF_SOLID_KINDS] = {
-    [WF_SPHERE] = sphere_normals,     [WF_BOX] = box_normals,
-    [WF_CYLINDER] = cylinder_normals, [WF_CONE] = cone_normals,
-    [WF_TORUS] = torus_normals,       [WF_HALFSPACE] = halfspace_normals,
-    [WF_QUADRIC] = quadric_normals,   [WF_POLYHEDRON] = polyhedron_normals,
+const wf_solid_ops WF_ISA_TABLE(wf_solid_ops) = {
+    .intersect =
+        {
+            [WF_SPHERE] = sphere,
+            [WF_BOX] = box,
+            [WF_CYLINDER] = cylinder,
+            [WF_CONE] = cone,
+            [WF_TORUS] = torus,
+            [WF_HALFSPACE] = halfspace,
+            [WF_QUADRIC] = quadric,
+            [WF_POLYHEDRON] = polyhedron,
+        },
+    .normals =
+        {
+            [WF_SPHERE] = sphere_normals,
+            [WF_BOX] = box_normals,
+            [WF_CYLINDER] = cylinder_normals,
+            [WF_CONE] = cone_normals,
+            [WF_TORUS] = torus_normals,
+            [WF_HALFSPACE] = halfspace_normals,
+            [WF_QUADRIC] = quadric_normals,
+            [WF_POLYHEDRON] = polyhedron_normals,
+        },
 };

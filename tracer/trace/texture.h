@@ -1,6 +1,7 @@
 #ifndef WF_TRACER_TRACE_TEXTURE_H
 #define WF_TRACER_TRACE_TEXTURE_H
 
+#include "filters/base/isa.h"
 #include "tracer/trace/solid.h"
 
 /* Colors of a texture at the first count points of a packet, in the space that it was written
@@ -8,7 +9,10 @@
 typedef void wf_texture_fn(const wf_scene *scene, const wf_texture *texture,
                            const wf_points *points, int count, double *const rgb[3]);
 
-/* By kind (none for WF_TEXTURE_NONE), the fastest that this processor runs. */
-wf_texture_fn *const *wf_textures_best(void);
+typedef struct wf_texture_ops {
+    wf_texture_fn *color[WF_TEXTURES]; /* by kind; none for WF_TEXTURE_NONE */
+} wf_texture_ops;
+
+WF_ISA_DECLARE(wf_texture_ops);
 
 #endif

@@ -1,16 +1,9 @@
-/* Colors of textures. Compiled once for each instruction set; WF_ISA names the table
- * (tracer/texture.c lists them). */
+/* Colors of textures at points of a packet. */
 #include <math.h>
 
+#include "filters/base/isa_file.h"
 #include "tracer/trace/sincos.h"
 #include "tracer/trace/texture.h"
-
-#ifndef WF_ISA
-#define WF_ISA v1
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-#define TABLE       JOIN(wf_textures_, WF_ISA)
 
 static inline double dot(wf_vec v, const wf_points *p, int i) {
     return v.x * p->x[i] + v.y * p->y[i] + v.z * p->z[i];
@@ -114,8 +107,12 @@ static void image(const wf_scene *s, const wf_texture *t, const wf_points *p, in
     }
 }
 
-extern wf_texture_fn *const TABLE[WF_TEXTURES];
-wf_texture_fn *const TABLE[WF_TEXTURES] = {[WF_TEXTURE_CHECKER] = checker,
-                                           [WF_TEXTURE_STRIPE] = stripe,
-                                           [WF_TEXTURE_ZONEPLATE] = zoneplate,
-                                           [WF_TEXTURE_IMAGE] = image};
+const wf_texture_ops WF_ISA_TABLE(wf_texture_ops) = {
+    .color =
+        {
+            [WF_TEXTURE_CHECKER] = checker,
+            [WF_TEXTURE_STRIPE] = stripe,
+            [WF_TEXTURE_ZONEPLATE] = zoneplate,
+            [WF_TEXTURE_IMAGE] = image,
+        },
+};

@@ -129,12 +129,12 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
     if (!t) return NULL;
     t->scene = scene;
     t->view = *view;
-    t->packet = wf_packet_best();
-    t->csg = wf_csg_best();
-    t->light = wf_light_best();
-    t->intersect = wf_intersect_best();
-    t->normals = wf_normals_best();
-    t->textures = wf_textures_best();
+    t->packet = wf_packet_ops_best();
+    t->csg = wf_csg_ops_best();
+    t->light = wf_light_ops_best();
+    t->intersect = wf_solid_ops_best()->intersect;
+    t->normals = wf_solid_ops_best()->normals;
+    t->textures = wf_texture_ops_best()->color;
     t->own_widths = any_op(scene, true);
     for (int n = 0; n < scene->light_count; n++)
         t->lights_move |= wf_op_moves(scene, scene->lights[n].op);

@@ -90,7 +90,7 @@ static void nearest(const wf_csg *c, wf_hits *hits) {
     double rounding[WF_PACKET];
     for (int i = 0; i < WF_PACKET; i++) rounding[i] = 1e-9;
     wf_hits_clear(hits);
-    wf_csg_best()->nearest(c, rounding, stack, hits);
+    wf_csg_ops_best()->nearest(c, rounding, stack, hits);
 }
 
 /* Where the whole first changes, walking from whole number to whole number. */

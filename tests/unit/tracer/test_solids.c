@@ -159,7 +159,7 @@ static void runs_are_the_solid(void **state) {
                 wf_rays r;
                 wf_runs runs;
                 aim(&r, &seed, distances[d]);
-                find_runs(&solids[w], &r, &runs, wf_intersect_best());
+                find_runs(&solids[w], &r, &runs, wf_solid_ops_best()->intersect);
                 for (int i = 0; i < WF_PACKET; i++) {
                     check_ends(w, &r, &runs, i, 20 * slack);
                     check_ray(w, &r, &runs, i, 1e5 * slack);
@@ -176,9 +176,9 @@ static void every_level_has_the_same_bits(void **state) {
             wf_runs first, other;
             uint32_t state_of = seed;
             aim(&r, &state_of, 10);
-            find_runs(&solids[w], &r, &first, wf_intersect_at(0));
-            for (size_t level = 1; wf_intersect_at(level); level++) {
-                find_runs(&solids[w], &r, &other, wf_intersect_at(level));
+            find_runs(&solids[w], &r, &first, wf_solid_ops_at(0)->intersect);
+            for (size_t level = 1; wf_solid_ops_at(level); level++) {
+                find_runs(&solids[w], &r, &other, wf_solid_ops_at(level)->intersect);
                 assert_memory_equal(&first, &other, sizeof first);
             }
         }
@@ -199,8 +199,8 @@ static void directions_of_any_length(void **state) {
                 scaled.dy[i] = ldexp(r.dy[i], k);
                 scaled.dz[i] = ldexp(r.dz[i], k);
             }
-            find_runs(&solids[w], &r, &runs, wf_intersect_best());
-            find_runs(&solids[w], &scaled, &other, wf_intersect_best());
+            find_runs(&solids[w], &r, &runs, wf_solid_ops_best()->intersect);
+            find_runs(&solids[w], &scaled, &other, wf_solid_ops_best()->intersect);
             for (int i = 0; i < WF_PACKET; i++) {
                 assert_true(other.in[0][i] == ldexp(runs.in[0][i], -k));
                 assert_true(other.out[0][i] == ldexp(runs.out[0][i], -k));
@@ -232,10 +232,10 @@ static void points(void **state) {
 static wf_vec normal_at(const wf_solid *s, wf_vec p) {
     wf_points at, n;
     for (int i = 0; i < WF_PACKET; i++) at.x[i] = p.x, at.y[i] = p.y, at.z[i] = p.z;
-    wf_normals_best()[s->kind](s, faces, &at, &n);
-    for (size_t level = 0; wf_normals_at(level); level++) {
+    wf_solid_ops_best()->normals[s->kind](s, faces, &at, &n);
+    for (size_t level = 0; wf_solid_ops_at(level); level++) {
         wf_points other;
-        wf_normals_at(level)[s->kind](s, faces, &at, &other);
+        wf_solid_ops_at(level)->normals[s->kind](s, faces, &at, &other);
         assert_memory_equal(&other, &n, sizeof n);
     }
     return (wf_vec){n.x[9], n.y[9], n.z[9]};
@@ -249,7 +249,7 @@ static void normals(void **state) {
         wf_rays r;
         wf_runs runs;
         aim(&r, &seed, 4);
-        find_runs(s, &r, &runs, wf_intersect_best());
+        find_runs(s, &r, &runs, wf_solid_ops_best()->intersect);
         for (int i = 0; i < WF_PACKET; i++) {
             long double p[3], up[3], length = 0, along = 0;
             if (isinf(runs.in[0][i])) continue;

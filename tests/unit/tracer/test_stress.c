@@ -102,7 +102,7 @@ static void tangents(void **state) {
             for (int i = 0; i < WF_PACKET; i++)
                 pass(s, &r, i, ldexp(uniform(&seed, -1, 1), -(int)uniform(&seed, 20, 54)),
                      &seed);
-            wf_intersect_best()[s->solid.kind](&s->solid, NULL, &r, &runs);
+            wf_solid_ops_best()->intersect[s->solid.kind](&s->solid, NULL, &r, &runs);
             for (int i = 0; i < WF_PACKET; i++, rays++) {
                 quad depth = depth_of(s, &r, i);
                 nearest = fmin(nearest, fabs((double)depth));
@@ -199,7 +199,7 @@ static void tori(void **state) {
                 r.oz[i] = uniform(&seed, -4, 4);
                 r.dx[i] = p[0] - r.ox[i], r.dy[i] = p[1] - r.oy[i], r.dz[i] = p[2] - r.oz[i];
             }
-            wf_intersect_best()[WF_TORUS](&torus, NULL, &r, &runs);
+            wf_solid_ops_best()->intersect[WF_TORUS](&torus, NULL, &r, &runs);
             for (int i = 0; i < WF_PACKET; i++)
                 for (int k = 0; k < 4; k++) {
                     double s = k % 2 ? runs.out[k / 2][i] : runs.in[k / 2][i];
