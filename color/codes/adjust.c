@@ -1,16 +1,16 @@
+/* luma-adjust: the Y' that gives the light which decimated chroma has taken or added. */
 #include "color/codes/adjust.h"
 
 #include <math.h>
 
-#include "color/codes/chroma.h"
 #include "color/codes/legal.h"
 #include "color/line/line.h"
 
 #define LEAST_LUMA (-1 / 16.0f)
 #define MOST_LUMA  1.09f
-#define KEPT       5e-5f /* of a signal: what no code shows */
-#define NEAR       1e-5f /* of white: light that is as good as right */
-#define STEPS      24    /* at most; three do for most pixels */
+#define KEPT       5e-5f /* of a signal: a difference that no code shows */
+#define TOLERANCE  1e-5f /* of white: light is as good as right */
+#define STEPS      24    /* of Newton, at most; three do for most pixels */
 
 size_t wf_adjust_scratch(size_t width_px) {
     return 2 * width_px;
@@ -22,6 +22,7 @@ typedef struct pixel {
     float least, most;   /* of Y' */
 } pixel;
 
+/* The light of the pixel with luma y; *slope is its derivative. */
 static float luminance(const pixel *p, float y, float *slope) {
     float light = 0;
     *slope = 0;
@@ -34,16 +35,17 @@ static float luminance(const pixel *p, float y, float *slope) {
     return light;
 }
 
-/* Newton's steps, kept between what is known to be too dark and too bright: luminance grows
- * with luma, though it stands still where all colors are black. An end is tried before what
- * lies between is halved: often no code gives the light wanted. */
+/* Newton's method, within a bracket of a Y' that is too dark and one that is too bright,
+ * because luminance grows with luma (though it stands still where R', G' and B' are all black).
+ * A step that would leave the bracket tries its end first and halves it after that: often no
+ * code gives the light that is wanted, and then the end is the answer. */
 static float solve(const pixel *p, float y, float want) {
     float dark = p->least, bright = p->most, slope;
     bool tried_dark = false, tried_bright = false;
     if (y < dark || y > bright) y = 0.5f * (dark + bright);
     for (int n = 0; n < STEPS; n++) {
         float error = luminance(p, y, &slope) - want;
-        if (fabsf(error) < NEAR) return y;
+        if (fabsf(error) < TOLERANCE) return y;
         if (error > 0)
             bright = y, tried_bright = true;
         else
@@ -65,8 +67,8 @@ static bool is_kept(const pixel *p, float y, const float rgb[3]) {
     return off < KEPT;
 }
 
-/* Light is not had by leaving the limits, which would cost the saturation of all around: Y'
- * goes no further out than they or it itself are. */
+/* Sets what Y' may become. Under r103 it may not take R', G' or B' past the limits (nor further
+ * past them than y does already): that would cost the saturation of all the pixels around. */
 static void bound(pixel *p, const wf_legal_range *legal, float y) {
     float up = 0, down = 0;
     p->least = LEAST_LUMA;

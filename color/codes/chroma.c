@@ -1,3 +1,4 @@
+/* Chroma along a line: decimation to 4:2:2 and interpolation back. */
 #include "color/codes/chroma.h"
 
 #include "color/line/line.h"
@@ -8,7 +9,7 @@
  * 4:2:2 chroma, 2.75 and 4.0 MHz at 13.5 MHz, rounded to 16 bits such that they add up to
  * exactly 1. Flat to 0.0053 dB up to 2.75/13.5 of the luma sampling rate, half at
  * 3.375/13.5, 64.3 dB down from 4.0/13.5 on; the template asks for 0.05 dB and 55 dB.
- * tests/test_chroma.c computes them again. */
+ * tests/unit/color/test_chroma.c computes them again. */
 #define BT601_PAIRS                                                                            \
     {                                                                                          \
         OF_65536(20731), OF_65536(-6567), OF_65536(3559), OF_65536(-2170), OF_65536(1361),     \
@@ -30,14 +31,16 @@ size_t wf_chroma_scratch(size_t width_px) {
     return width_px / 2 + (width_px / 2 + 2 * WF_CHROMA_PAIRS);
 }
 
-/* Where the sample of the endless line lies in the line. */
+/* The index in the line of the sample that stands at `index` of the line continued by
+ * reflection. */
 static size_t reflected(ptrdiff_t index, size_t width_px) {
     ptrdiff_t last = (ptrdiff_t)width_px - 1;
     while (index < 0 || index > last) index = index < 0 ? -index : 2 * last - index;
     return (size_t)index;
 }
 
-/* odd[-1 - j] and odd[count + j] for j < WF_CHROMA_PAIRS. */
+/* Fills odd[-1 - j] and odd[count + j], j < WF_CHROMA_PAIRS, which lie beyond the ends of odd.
+ */
 static void reflect_edges(float *odd, const float *line, size_t width_px) {
     ptrdiff_t count = (ptrdiff_t)(width_px / 2);
     for (ptrdiff_t j = 0; j < WF_CHROMA_PAIRS; j++) {
@@ -60,6 +63,7 @@ void wf_chroma_decimate(const wf_chroma_filter *filter, float *line, size_t widt
         for (size_t i = 0; i < count; i++) line[i] = 0.5f * even[i] + filter->pair[0] * odd[i];
 }
 
+/* The sample between half[i] and half[i + 1] where taps reach beyond an end of the line. */
 static float between_at_edge(const wf_chroma_filter *filter, const float *half, ptrdiff_t i,
                              size_t width_px) {
     float sum = 0;
@@ -69,8 +73,8 @@ static float between_at_edge(const wf_chroma_filter *filter, const float *half, 
     return 2 * sum;
 }
 
-/* The samples between, in the second half of the line, from where they are dealt out. The inner
- * loop of decimation adds half of a sample that is not among the taps here. */
+/* The samples between are made in the second half of `line` and moved from there to their
+ * places. The loop of decimation serves, less its middle tap: half of the sample before. */
 void wf_chroma_interpolate(const wf_chroma_filter *filter, const float *half, size_t width_px,
                            float *line) {
     ptrdiff_t count = (ptrdiff_t)(width_px / 2), pairs = (ptrdiff_t)filter->pairs;

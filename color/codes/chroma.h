@@ -1,7 +1,19 @@
 #ifndef WF_COLOR_CODES_CHROMA_H
 #define WF_COLOR_CODES_CHROMA_H
 
-#include "color/codes/encoder.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+/* How Cb and Cr lose half their samples; 444 keeps them. luma-adjust decimates as bt601 does
+ * and then chooses Y' so that the luminance, once chroma is interpolated, is that of the
+ * picture before (color/codes/adjust.h). */
+typedef enum wf_chroma {
+    WF_CHROMA_BT601,
+    WF_CHROMA_121,
+    WF_CHROMA_BOX,
+    WF_CHROMA_444,
+    WF_CHROMA_LUMA_ADJUST
+} wf_chroma;
 
 /* Most taps before or after the middle one that are not 0. */
 #define WF_CHROMA_PAIRS 10
@@ -15,10 +27,10 @@ typedef struct wf_chroma_filter {
     float pair[WF_CHROMA_PAIRS];
 } wf_chroma_filter;
 
-/* NULL for 444, which does not filter. */
+/* The filter of a name; static storage. NULL for 444, which does not filter. */
 const wf_chroma_filter *wf_chroma_filter_of(wf_chroma chroma);
 
-/* Samples of scratch for a line of width_px. */
+/* Samples of scratch that wf_chroma_decimate needs for a line of width_px. */
 size_t wf_chroma_scratch(size_t width_px);
 
 /* The first width_px / 2 samples of line become those of the decimated line; outside, the line

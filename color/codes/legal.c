@@ -1,32 +1,34 @@
-/* Codes that a receiver can show: EBU R 103. */
+/* Brings lines within EBU R 103 by a soft clip of luma and by compressing saturation. */
 #include "color/codes/legal.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "color/codes/display.h"
-#include "color/line/line.h"
+#include "color/codes/levels.h"
+#include "color/codes/r103.h"
+#include "color/codes/ycbcr.h"
 
-#define SOFT     (2.5f / 876) /* where the clip of luma is soft: less than a code is lost */
-#define REACH    4     /* pixels to each side over which saturation is compressed alike */
-#define ROUNDS   16    /* of compression: each leaves less to the next */
-#define GREY     1e-4f /* chroma that is rounded to none */
-#define ROUNDING 1e-6f /* of floats is no offense */
+#define SOFT (2.5f / 876) /* of a signal: the clip of luma is soft and loses less than a code  \
+                           */
+#define REACH  4          /* pixels to each side over which saturation is compressed alike */
+#define ROUNDS 16         /* of compression: each leaves less to the next */
+#define GRAY   1e-4f      /* chroma that is rounded to none */
 
 typedef struct limits {
     float low, high;             /* of R', G', B' */
     float luma_low, luma_high;   /* of Y' */
-    float knee;                  /* below the latter, where the clip begins */
-    float slack;                 /* of the former, which rounding to codes may take */
-    float red, blue;             /* R' - Y' of Cr, B' - Y' of Cb */
-    float green_red, green_blue; /* G' - Y' of R' - Y' and of B' - Y' */
+    float knee;                  /* the clip begins this far below luma_high */
+    float slack;                 /* rounding to codes may move R', G' and B' this far */
+    float red, blue;             /* R' - Y' = red Cr, B' - Y' = blue Cb */
+    float green_red, green_blue; /* G' - Y' = green_red (R' - Y') + green_blue (B' - Y') */
 } limits;
 
-/* Half a code of Y' and of the chroma that counts most, which interpolation may make more of;
- * with noise a whole one besides. R', G' and B' are rounded by themselves, and their limits are
- * codes. */
+/* Rounding moves Y' by half a code, and by as much the chroma that R', G' and B' depend on
+ * most, which interpolation may add to; noise moves both by a whole code besides. Where the
+ * codes are R'G'B' the limits are codes themselves, and rounding leaves nothing outside. */
 static float slack_of(const wf_encoding *e) {
-    const double most_of_chroma = 1.9, taps = 2.21; /* sum of those of a pixel between two */
+    const double most_of_chroma = 1.9,
+                 taps = 2.21; /* sum of their sizes, between two samples */
     double zero, luma, chroma, noise = e->dither ? 1 : 0;
     wf_code_scale(e, 0, &zero, &luma);
     wf_code_scale(e, 1, &zero, &chroma);
@@ -35,7 +37,7 @@ static float slack_of(const wf_encoding *e) {
     return (float)((0.5 + noise) / luma + (0.5 * between + noise) * most_of_chroma / chroma);
 }
 
-/* Codes of full range hold Y' from 0 to 1, and R'G'B' where they are that. */
+/* Codes of full range hold no more than 0 to 1, of Y' or of R', G' and B'. */
 static limits limits_of(const wf_encoding *e) {
     wf_ycbcr w = wf_ycbcr_of(e->luma);
     float kg = 1 - w.kr - w.kb, noise = e->dither ? slack_of(e) : 0;
@@ -74,8 +76,8 @@ static float least(float a, float b) {
     return a < b ? a : b;
 }
 
-/* What a difference from luma may be multiplied by. */
-static float room(const limits *l, float y, float difference) {
+/* What the difference of R', G' or B' from luma y may be multiplied by. */
+static float allowed(const limits *l, float y, float difference) {
     float up = l->high - y, down = y - l->low;
     if (difference > 0) return up > 0 ? up / difference : 0;
     return difference < 0 ? (down > 0 ? down / -difference : 0) : 1;
@@ -85,34 +87,34 @@ static float room(const limits *l, float y, float difference) {
 static float factor(const limits *l, float y, float cb, float cr) {
     float red = cr * l->red, blue = cb * l->blue;
     float green = l->green_red * red + l->green_blue * blue;
-    float s = least(room(l, y, red), room(l, y, blue));
-    return least(least(s, room(l, y, green)), 1);
+    float s = least(allowed(l, y, red), allowed(l, y, blue));
+    return least(least(s, allowed(l, y, green)), 1);
 }
 
 /* ---- Lines of Y'CbCr ---- */
 
-/* Parts of the scratch, each as long as a line. */
-typedef struct line_room {
+/* The parts of the scratch, each as long as a line. */
+typedef struct scratch_lines {
     float *chroma[2]; /* at every pixel */
     float *factors, *eroded, *luma, *touched;
-} line_room;
+} scratch_lines;
 
-#define ROOM_LINES 6
+#define SCRATCH_LINES 6
 
-static line_room lay_out(float *scratch, size_t width) {
-    return (line_room){{scratch, scratch + width},
-                       scratch + 2 * width,
-                       scratch + 3 * width,
-                       scratch + 4 * width,
-                       scratch + 5 * width};
+static scratch_lines lay_out(float *scratch, size_t width) {
+    return (scratch_lines){{scratch, scratch + width},
+                           scratch + 2 * width,
+                           scratch + 3 * width,
+                           scratch + 4 * width,
+                           scratch + 5 * width};
 }
 
 size_t wf_legal_scratch(size_t width_px) {
-    return ROOM_LINES * width_px;
+    return SCRATCH_LINES * width_px;
 }
 
-/* Chroma at every pixel: what a receiver interpolates. */
-static void spread(const wf_encoding *e, float *const ycbcr[3], float *chroma[2]) {
+/* The chroma of every pixel, as a receiver interpolates it. */
+static void interpolate(const wf_encoding *e, float *const ycbcr[3], float *chroma[2]) {
     size_t width = (size_t)e->width_px;
     const wf_chroma_filter *half_band = wf_chroma_filter_of(WF_CHROMA_BT601);
     for (int p = 0; p < 2; p++)
@@ -126,8 +128,8 @@ static int is_beyond(float v, float low, float high) {
     return (v < low) | (v > high);
 }
 
-/* Pixels of the line that are outside, but for half of the slack, without which the last rounds
- * would be endless. */
+/* How many pixels of the line are outside by more than half the slack: down to the last of it,
+ * the rounds would not end. */
 static int count_beyond(const limits *l, const float *y, float *const chroma[2], size_t width) {
     float low = l->low - 0.5f * l->slack, high = l->high + 0.5f * l->slack;
     int count = 0;
@@ -140,18 +142,20 @@ static int count_beyond(const limits *l, const float *y, float *const chroma[2],
     return count;
 }
 
-/* Factors of all pixels; false where every one may stay as it is. */
+/* Finds what the chroma of each pixel may be multiplied by; false where all may stay as it is.
+ */
 static bool find_factors(const wf_encoding *e, const limits *l, float *const ycbcr[3],
-                         line_room *room) {
+                         scratch_lines *lines) {
     size_t width = (size_t)e->width_px;
-    spread(e, ycbcr, room->chroma);
-    if (!count_beyond(l, ycbcr[0], room->chroma, width)) return false;
+    interpolate(e, ycbcr, lines->chroma);
+    if (!count_beyond(l, ycbcr[0], lines->chroma, width)) return false;
     for (size_t x = 0; x < width; x++)
-        room->factors[x] = factor(l, ycbcr[0][x], room->chroma[0][x], room->chroma[1][x]);
+        lines->factors[x] = factor(l, ycbcr[0][x], lines->chroma[0][x], lines->chroma[1][x]);
     return true;
 }
 
-/* The least of the pixels within reach: one pass for each distance, which vectorize. */
+/* to[x] is the least of the pixels within reach of x. There is a pass for each distance, so
+ * that the compiler makes vectors of them. */
 static void erode(const float *from, float *to, ptrdiff_t width) {
     memcpy(to, from, (size_t)width * sizeof *to);
     for (ptrdiff_t off = 1; off <= REACH; off++) {
@@ -160,8 +164,8 @@ static void erode(const float *from, float *to, ptrdiff_t width) {
     }
 }
 
-/* Their mean: after erode it is nowhere more than the factor was, and it has no steps, which
- * interpolation would ring at and turn hues with. */
+/* The mean within reach of x. After erode it is nowhere more than the pixel's own factor, and
+ * it has no steps: interpolation would ring at them and so turn hues. */
 static float smooth(const float *from, ptrdiff_t x, ptrdiff_t width) {
     float sum = 0;
     for (ptrdiff_t i = x - REACH; i <= x + REACH; i++)
@@ -169,7 +173,7 @@ static float smooth(const float *from, ptrdiff_t x, ptrdiff_t width) {
     return sum / (2 * REACH + 1);
 }
 
-/* Saturation, sample by sample of chroma. */
+/* Multiplies each sample of chroma by its factor. */
 static void compress(const wf_encoding *e, float *const ycbcr[3], const float *factors,
                      float *touched) {
     ptrdiff_t width = e->width_px, step = e->chroma == WF_CHROMA_444 ? 1 : 2;
@@ -190,41 +194,41 @@ static void clip_luma(const limits *l, float *y, float *touched, size_t width) {
     }
 }
 
-/* What is left where bright or dark stands beside color, which interpolation rings into it, is
- * taken from luma: as much as it needs where luma was outside itself, elsewhere less than a
- * code. */
+/* Interpolation rings from saturated colors into bright or dark pixels beside them. What is
+ * outside there after all rounds is put right by moving luma: as far as it takes where luma was
+ * outside by itself, elsewhere by less than a code. */
 static void settle_luma(const wf_encoding *e, const limits *l, float *const ycbcr[3],
-                        line_room *room) {
+                        scratch_lines *lines) {
     const float least_code = 0.9f / 876;
-    spread(e, ycbcr, room->chroma);
+    interpolate(e, ycbcr, lines->chroma);
     for (int x = 0; x < e->width_px; x++) {
-        float red = room->chroma[1][x] * l->red, blue = room->chroma[0][x] * l->blue;
-        float green = l->green_red * red + l->green_blue * blue, was = room->luma[x];
+        float red = lines->chroma[1][x] * l->red, blue = lines->chroma[0][x] * l->blue;
+        float green = l->green_red * red + l->green_blue * blue, was = lines->luma[x];
         float up = fmaxf(red, fmaxf(green, blue)), down = fminf(red, fminf(green, blue));
         float y = fmaxf(fminf(ycbcr[0][x], l->high - up), l->low - down);
         bool inside = was >= WF_R103_LOW && was <= WF_R103_HIGH;
         if (inside) y = fmaxf(fminf(y, was + least_code), was - least_code);
-        if (up - down < GREY || y == ycbcr[0][x]) continue;
+        if (up - down < GRAY || y == ycbcr[0][x]) continue;
         ycbcr[0][x] = y;
-        room->touched[x] = 1;
+        lines->touched[x] = 1;
     }
 }
 
 void wf_legal_ycbcr(const wf_encoding *e, float *const ycbcr[3], float *scratch) {
     const limits l = limits_of(e);
     size_t width = (size_t)e->width_px;
-    line_room room = lay_out(scratch, width);
+    scratch_lines lines = lay_out(scratch, width);
     bool whole = e->chroma == WF_CHROMA_444;
     int round = 0;
-    memcpy(room.luma, ycbcr[0], width * sizeof(float));
-    clip_luma(&l, ycbcr[0], room.touched, width);
-    for (; round < ROUNDS && find_factors(e, &l, ycbcr, &room); round++) {
-        erode(room.factors, room.eroded, e->width_px);
-        compress(e, ycbcr, whole ? room.factors : room.eroded, room.touched);
+    memcpy(lines.luma, ycbcr[0], width * sizeof(float));
+    clip_luma(&l, ycbcr[0], lines.touched, width);
+    for (; round < ROUNDS && find_factors(e, &l, ycbcr, &lines); round++) {
+        erode(lines.factors, lines.eroded, e->width_px);
+        compress(e, ycbcr, whole ? lines.factors : lines.eroded, lines.touched);
     }
-    if (round == ROUNDS) settle_luma(e, &l, ycbcr, &room);
+    if (round == ROUNDS) settle_luma(e, &l, ycbcr, &lines);
     if (!e->legal) return;
-    for (size_t x = 0; x < width; x++) e->legal->touched += room.touched[x] > 0;
+    for (size_t x = 0; x < width; x++) e->legal->touched += lines.touched[x] > 0;
     e->legal->pixels += (int64_t)width;
 }
 
@@ -249,25 +253,18 @@ void wf_legal_rgb(const wf_encoding *e, float *const rgb[3]) {
 
 /* ---- What is left ---- */
 
-/* Y' lies between the least and the most of R', G' and B': it need not be looked at. */
 void wf_legal_count(const wf_encoding *e, uint16_t *const code[3], float *scratch) {
     size_t width = (size_t)e->width_px;
-    line_room room = lay_out(scratch, width);
-    float *decoded[3] = {room.factors, room.eroded, room.luma};
-    float *spread_out[3] = {decoded[0], room.chroma[0], room.chroma[1]};
-    float **rgb = e->ycbcr ? spread_out : decoded;
-    bool halved = e->ycbcr && e->chroma != WF_CHROMA_444, whole = e->full_range && !e->ycbcr;
-    float low = (whole ? 0 : (float)WF_R103_LOW) - ROUNDING;
-    float high = (whole ? 1 : (float)WF_R103_HIGH) + ROUNDING;
-    int count = 0;
+    scratch_lines lines = lay_out(scratch, width);
+    float *decoded[3] = {lines.factors, lines.eroded, lines.luma};
+    float *full[3] = {decoded[0], lines.chroma[0], lines.chroma[1]};
+    float **rgb = e->ycbcr ? full : decoded;
+    bool halved = e->ycbcr && e->chroma != WF_CHROMA_444;
     for (int p = 0; p < 3; p++)
         wf_decode_line(e, p, code[p], decoded[p], p && halved ? width / 2 : width);
     if (e->ycbcr) {
-        spread(e, decoded, rgb + 1);
+        interpolate(e, decoded, rgb + 1);
         wf_rgb_of_ycbcr(e->luma, rgb[0], rgb[1], rgb[2], width);
     }
-    for (size_t x = 0; x < width; x++)
-        count += is_beyond(rgb[0][x], low, high) | is_beyond(rgb[1][x], low, high) |
-                 is_beyond(rgb[2][x], low, high);
-    e->legal->outside += count;
+    e->legal->outside += wf_r103_outside((const float *const *)rgb, width);
 }

@@ -1,3 +1,4 @@
+/* The transfer curves as constants of their standards. */
 #include "color/line/curve.h"
 
 #include <float.h>

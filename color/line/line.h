@@ -21,20 +21,12 @@ typedef struct wf_mix {
     double of_blue[2];  /* of r - b, g - b */
 } wf_mix;
 
-/* R'G'B' to Y'CbCr. */
-typedef struct wf_ycbcr {
-    float kr, kb;
-    float cb_scale, cr_scale; /* 1 / (2 (1 - Kb)), 1 / (2 (1 - Kr)) */
-} wf_ycbcr;
-
-wf_ycbcr wf_ycbcr_of(wf_luma luma);
-
 /* Signal to code: scale * signal + offset, rounded, within low .. high (whole numbers >= 0). */
 typedef struct wf_quantizer {
     double scale, offset, low, high;
 } wf_quantizer;
 
-/* The inner loops of colour, one table for each instruction set they are compiled for. Every
+/* The inner loops of color, one table for each instruction set they are compiled for. Every
  * table gives the same bits. */
 typedef struct wf_line_ops {
     /* In place, planes of count samples; NaN counts as 0. */

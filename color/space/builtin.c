@@ -1,7 +1,10 @@
 /* The shipped spaces without OpenColorIO: a matrix and a curve. */
+#include "color/space/builtin.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "color/line/line.h"
 #include "color/space/space.h"
 
 typedef struct builtin {
@@ -66,11 +69,4 @@ bool wf_builtin_transform(const char *from, const char *to, wf_transform *out, c
                    .mix = mix_of(input->primaries, output->primaries)};
     *out = (wf_transform){apply_builtin, free, t};
     return true;
-}
-
-const char *wf_builtin_space(size_t index, bool *is_output) {
-    const wf_space *space = wf_space_at(index);
-    if (!space) return NULL;
-    *is_output = space->curve != NULL;
-    return space->name;
 }

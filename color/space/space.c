@@ -1,3 +1,4 @@
+/* The tables of primaries and spaces, and the matrices between primaries. */
 #include "color/space/space.h"
 
 #include <stdio.h>

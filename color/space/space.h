@@ -5,8 +5,6 @@
 #include <stddef.h>
 
 #include "color/line/curve.h"
-#include "color/line/line.h"
-#include "color/space/transform.h"
 
 typedef enum wf_primaries {
     WF_PRIMARIES_709,

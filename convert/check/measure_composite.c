@@ -2,7 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "color/composite/composite.h"
+#include "color/composite/decode.h"
+#include "color/composite/encode.h"
 #include "convert/check/histogram.h"
 #include "convert/check/measure_kinds.h"
 #include "convert/read/television.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/levels.h"
 #include "convert/check/measure_kinds.h"
 
 /* Structural similarity (Wang, Bovik, Sheikh and Simoncelli, 2004, equation 13) over square

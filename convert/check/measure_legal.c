@@ -2,15 +2,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/codes/display.h"
+#include "color/codes/r103.h"
+#include "color/codes/ycbcr.h"
 #include "convert/check/measure_kinds.h"
 #include "convert/job/colors.h"
 
-/* EBU R103 v3: 10-bit codes 20 .. 984, as signals. Rounding to floats is not an offense. */
-#define R103_LOW      (-44 / 876.0f - 1e-6f)
-#define R103_HIGH     (920 / 876.0f + 1e-6f)
-#define ROUNDING      1e-6f
-#define CODE_ROUNDING 1e-3f /* a code of 16 bits is 4e-3 */
+#define ROUNDING      1e-6f /* of floats is no offense */
+#define CODE_ROUNDING 1e-3f /* in codes of 8 bits, of which one of 16 bits is 4e-3 */
 
 typedef struct legal {
     wf_luma luma;
@@ -82,15 +80,9 @@ static double reserved(const legal *l, const wf_signal *s, int y) {
 static double outside_r103(const legal *l, const wf_signal *s, int y) {
     size_t width = (size_t)s->width_px, at = (size_t)y * width;
     float *rgb[3] = {l->line, l->line + width, l->line + 2 * width};
-    double count = 0;
     for (int p = 0; p < 3; p++) memcpy(rgb[p], s->ycbcr[p] + at, width * sizeof(float));
     wf_rgb_of_ycbcr(l->luma, rgb[0], rgb[1], rgb[2], width);
-    for (size_t x = 0; x < width; x++)
-        count += beyond(rgb[0][x], R103_LOW, R103_HIGH) ||
-                 beyond(rgb[1][x], R103_LOW, R103_HIGH) ||
-                 beyond(rgb[2][x], R103_LOW, R103_HIGH) ||
-                 beyond(s->ycbcr[0][at + x], R103_LOW, R103_HIGH);
-    return count;
+    return wf_r103_outside((const float *const *)rgb, width);
 }
 
 static void legal_add(void *state, const wf_signal *signal, const wf_signal *before) {

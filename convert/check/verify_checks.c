@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "color/codes/r103.h"
 #include "convert/check/verify_checks.h"
 #include "convert/job/timecode.h"
 #include "convert/media/container.h"
 
-#define R103_SHARE 0.01 /* EBU R 103: the share of the picture that may be outside */
 
 wf_verdict wf_say(wf_finding *f, bool right, const char *is, const char *should) {
     snprintf(f->is, sizeof f->is, "%s", is);
@@ -275,7 +275,7 @@ static wf_verdict check_levels(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%.3g %% of the picture is outside EBU R 103",
              100 * s->figures.r103_share);
-    return wf_say(f, s->figures.r103_share <= R103_SHARE, is, "at most 1 %");
+    return wf_say(f, s->figures.r103_share <= WF_R103_SHARE, is, "at most 1 %");
 }
 
 /* Codecs that lose something overshoot, and what receives them clips. */

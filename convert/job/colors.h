@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_JOB_COLORS_H
 #define WF_CONVERT_JOB_COLORS_H
 
+#include "color/line/luma.h"
 #include "color/space/space.h"
 #include "filters/raster/raster.h"
 

@@ -3,7 +3,7 @@
 
 #include <signal.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/encoding.h"
 #include "convert/base/fail.h"
 #include "convert/job/choices.h"
 #include "filters/aperture/aperture.h"

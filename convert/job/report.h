@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/encoding.h"
 #include "convert/base/json.h"
 #include "filters/raster/raster.h"
 

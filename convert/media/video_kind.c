@@ -1,7 +1,7 @@
 /* What every kind of video does alike. */
 #include "convert/media/video_kind.h"
 
-#include "color/codes/encoder.h"
+#include "color/codes/levels.h"
 
 weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
     return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a frame", video->path);

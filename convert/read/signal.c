@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/codes/chroma.h"
-#include "color/codes/display.h"
+#include "color/codes/encode.h"
+#include "color/codes/levels.h"
+#include "color/codes/ycbcr.h"
+#include "color/space/builtin.h"
 #include "convert/job/colors.h"
 
 #define CODE_BITS 16 /* of linear light that is encoded: fine enough to count as exact */

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/codes/display.h"
+#include "color/codes/ycbcr.h"
+#include "color/composite/decode.h"
+#include "color/composite/encode.h"
 #include "convert/base/pattern.h"
 #include "convert/read/signal.h"
 #include "convert/read/television.h"

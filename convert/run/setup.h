@@ -1,7 +1,8 @@
 #ifndef WF_CONVERT_RUN_SETUP_H
 #define WF_CONVERT_RUN_SETUP_H
 
-#include "color/codes/display.h"
+#include "color/codes/encode.h"
+#include "color/space/transform.h"
 #include "convert/job/job.h"
 #include "convert/job/report.h"
 #include "convert/job/timecode.h"

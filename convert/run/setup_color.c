@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color/space/builtin.h"
 #include "color/space/ocio/ocio.h"
 #include "convert/base/module.h"
 #include "convert/job/colors.h"

@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/encode.h"
 #include "color/line/line.h"
+#include "color/space/builtin.h"
 #include "color/space/ocio/ocio.h"
 #include "color/space/space.h"
 #include "convert/base/module.h"
@@ -99,10 +100,9 @@ static void measure_level(size_t level, const field *f, const wf_curve *curve) {
 }
 
 static void measure_all(const field *f, const char *config) {
-    bool is_output;
-    const char *to;
-    for (size_t i = 0; (to = wf_builtin_space(i, &is_output)); i++)
-        if (is_output) measure_builtin(f, "lin_rec709", to);
+    const wf_space *to;
+    for (size_t i = 0; (to = wf_space_at(i)); i++)
+        if (to->curve) measure_builtin(f, "lin_rec709", to->name);
     measure_builtin(f, "ACEScg", "rec709");
     measure_ocio(f, &(wf_ocio_query){.to = "rec709"}, "OpenColorIO: lin_rec709 to rec709");
     if (config)

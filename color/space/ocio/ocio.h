@@ -1,6 +1,9 @@
 #ifndef WF_COLOR_SPACE_OCIO_OCIO_H
 #define WF_COLOR_SPACE_OCIO_OCIO_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "color/space/transform.h"
 
 /* Names in an OpenColorIO configuration; NULL or "" where not given. */

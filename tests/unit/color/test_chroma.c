@@ -9,7 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "color/codes/chroma.h"
+#include "color/codes/encode.h"
 #include "color/line/line.h"
 
 /* Rec. ITU-R BT.601-7's template, MHz at 13.5 MHz, as shares of the luma sampling rate. */
@@ -104,8 +104,7 @@ static double through_encoder(wf_chroma chroma, int bits, double f, double phase
     uint16_t *const codes[3] = {code[0], code[1], code[2]};
     wf_encode_line(&e, planes, scratch, codes);
     double re = 0, im = 0, weights = 0;
-    for (int k = 0; k < WIDTH / 2;
-         k++) { /* a Blackman-Harris window keeps the neighbours out */
+    for (int k = 0; k < WIDTH / 2; k++) { /* a Blackman-Harris window keeps the neighbors out */
         double u = 2 * M_PI * (k + 0.5) / (WIDTH / 2.0);
         double w = 0.35875 - 0.48829 * cos(u) + 0.14128 * cos(2 * u) - 0.01168 * cos(3 * u);
         double signal = (code[1][k] - 128.0 * (1 << (bits - 8))) / (224.0 * (1 << (bits - 8)));

@@ -8,8 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "color/composite/composite.h"
-#include "color/composite/composite_parts.h"
+#include "color/composite/coder.h"
+#include "color/composite/decode.h"
+#include "color/composite/encode.h"
+#include "color/composite/subcarrier.h"
 
 /* ---- A television at work ---- */
 
@@ -106,12 +108,12 @@ static int mirrored(int x, int width) {
 }
 
 static double angle(const set *s, int64_t frame, int line, int x) {
-    wf_subcarrier sub = wf_composite_subcarrier(s->c, frame, line, x);
+    wf_subcarrier sub = wf_subcarrier_at(s->c, frame, line, x);
     return 2 * M_PI * (double)sub.num / (double)sub.den;
 }
 
 static int v_sign(const set *s, int64_t frame, int line) {
-    return wf_composite_subcarrier(s->c, frame, line, 0).v_sign;
+    return wf_subcarrier_at(s->c, frame, line, 0).v_sign;
 }
 
 static double filtered(const set *s, const wf_fir *fir, const float *plane, int line, int x) {

@@ -10,6 +10,8 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "color/line/line.h"
+#include "color/space/builtin.h"
 #include "color/space/space.h"
 #include "filters/base/half.h"
 
@@ -95,17 +97,16 @@ static wf_transform transform_of(const char *from, const char *to) {
 
 static void shipped_names(void **state) {
     (void)state;
-    bool is_output;
     size_t count = 0;
     for (int i = 0; i < INPUTS; i++, count++) {
-        assert_string_equal(wf_builtin_space(count, &is_output), inputs[i].name);
-        assert_false(is_output);
+        assert_string_equal(wf_space_at(count)->name, inputs[i].name);
+        assert_null(wf_space_at(count)->curve);
     }
     for (int i = 0; i < OUTPUTS; i++, count++) {
-        assert_string_equal(wf_builtin_space(count, &is_output), outputs[i].name);
-        assert_true(is_output);
+        assert_string_equal(wf_space_at(count)->name, outputs[i].name);
+        assert_non_null(wf_space_at(count)->curve);
     }
-    assert_null(wf_builtin_space(count, &is_output));
+    assert_null(wf_space_at(count));
 }
 
 static void unknown_names(void **state) {
@@ -345,7 +346,7 @@ static void signals_by_the_book(void **state) {
 
 enum { PIXELS = 4099 };
 
-/* Colours from 2^-20 to 2^13, some of them outside of every gamut, some neutral. */
+/* Colors from 2^-20 to 2^13, some of them outside of every gamut, some neutral. */
 static void random_colors(float rgb[3][PIXELS], uint64_t seed) {
     for (int i = 0; i < PIXELS; i++) {
         double level = i % 3 ? random_unit(&seed) : exp2(-20 + 33 * random_unit(&seed));

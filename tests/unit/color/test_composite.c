@@ -7,8 +7,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "color/composite/composite.h"
-#include "color/composite/composite_parts.h"
+#include "color/composite/coder.h"
+#include "color/composite/subcarrier.h"
 #include "filters/raster/raster.h"
 
 /* A raster's picture lines and their numbers, worked out by hand from its map. */
@@ -56,10 +56,9 @@ static void lines_have_their_numbers(void **state) {
         wf_composite *c = coder_of(r->raster, r->system);
         for (int k = 0; k < 2; k++) {
             int last = lines_of(r->raster) - 2 + k;
-            assert_int_equal(wf_composite_subcarrier(c, 5, k, 0).line_number, r->top[k]);
-            assert_int_equal(wf_composite_subcarrier(c, 5, last, 0).line_number, r->bottom[k]);
-            assert_int_equal(wf_composite_subcarrier(c, 5, 10 + k, 0).line_number,
-                             r->top[k] + 5);
+            assert_int_equal(wf_subcarrier_at(c, 5, k, 0).line_number, r->top[k]);
+            assert_int_equal(wf_subcarrier_at(c, 5, last, 0).line_number, r->bottom[k]);
+            assert_int_equal(wf_subcarrier_at(c, 5, 10 + k, 0).line_number, r->top[k] + 5);
         }
         wf_composite_free(c);
     }
@@ -74,7 +73,7 @@ static __int128 samples_since(const numbered *r, int64_t frame, int number, int 
 
 static void check_phase(const wf_composite *c, const numbered *r, int64_t frame, int line,
                         int sample) {
-    wf_subcarrier at = wf_composite_subcarrier(c, frame, line, sample);
+    wf_subcarrier at = wf_subcarrier_at(c, frame, line, sample);
     __int128 samples = samples_since(r, frame, at.line_number, sample);
     __int128 num = r->system == WF_NTSC ? 315000000 : 443361875;
     __int128 den = r->system == WF_NTSC ? (__int128)88 * 13500000 : 1350000000;
@@ -100,11 +99,11 @@ static void phase_at_the_datum(void **state) {
     (void)state;
     wf_composite *ntsc = coder_of("525i", WF_NTSC), *pal = coder_of("625i", WF_PAL);
     /* Line 21 of color frame A starts with a whole cycle, as line 1 does, line 22 half way. */
-    assert_int_equal(wf_composite_subcarrier(ntsc, 0, 1, -122).num, 0);
-    wf_subcarrier at = wf_composite_subcarrier(ntsc, 0, 3, -122);
+    assert_int_equal(wf_subcarrier_at(ntsc, 0, 1, -122).num, 0);
+    wf_subcarrier at = wf_subcarrier_at(ntsc, 0, 3, -122);
     assert_int_equal(2 * at.num, at.den);
     /* 22 lines of 283.7516 cycles are 6242.5352. */
-    at = wf_composite_subcarrier(pal, 0, 0, -132);
+    at = wf_subcarrier_at(pal, 0, 0, -132);
     assert_int_equal(at.line_number, 23);
     assert_int_equal(at.num * 10000, 5352 * at.den);
     wf_composite_free(ntsc);
@@ -112,7 +111,7 @@ static void phase_at_the_datum(void **state) {
 }
 
 static double phase(const wf_composite *c, int64_t frame, int line, int sample) {
-    wf_subcarrier at = wf_composite_subcarrier(c, frame, line, sample);
+    wf_subcarrier at = wf_subcarrier_at(c, frame, line, sample);
     return (double)at.num / (double)at.den;
 }
 
@@ -154,7 +153,7 @@ static void v_switches_on_every_line(void **state) {
     wf_composite *c = coder_of("625i", WF_PAL);
     for (int frame = 0; frame < 8; frame++)
         for (int line = 0; line < 576; line++) {
-            wf_subcarrier at = wf_composite_subcarrier(c, frame, line, 0);
+            wf_subcarrier at = wf_subcarrier_at(c, frame, line, 0);
             bool plus = (at.line_number % 2 == 1) == (frame % 2 == 0);
             assert_int_equal(at.v_sign, plus ? 1 : -1);
             assert_int_equal(at.burst_degrees, plus ? 135 : 225); /* -U + V, -U - V */
@@ -162,8 +161,8 @@ static void v_switches_on_every_line(void **state) {
     wf_composite_free(c);
     c = coder_of("525i", WF_NTSC);
     for (int line = 0; line < 486; line++) {
-        assert_int_equal(wf_composite_subcarrier(c, 1, line, 0).v_sign, 1);
-        assert_int_equal(wf_composite_subcarrier(c, 1, line, 0).burst_degrees, 180);
+        assert_int_equal(wf_subcarrier_at(c, 1, line, 0).v_sign, 1);
+        assert_int_equal(wf_subcarrier_at(c, 1, line, 0).burst_degrees, 180);
     }
     wf_composite_free(c);
 }
@@ -176,10 +175,10 @@ static void carriers_by_the_phase(void **state) {
         wf_composite *c = coder_of(rasters[i].raster, rasters[i].system);
         int margin = (int)wf_composite_margin(c);
         for (int line = 0; line < 20; line++) {
-            wf_composite_carriers(c, 3, line, sine, cosine);
+            wf_subcarrier_row(c, 3, line, sine, cosine);
             for (int s = -margin; s < 720 + margin; s++) {
                 double a = 2 * M_PI * phase(c, 3, line, s);
-                int sign = wf_composite_subcarrier(c, 3, line, s).v_sign;
+                int sign = wf_subcarrier_at(c, 3, line, s).v_sign;
                 assert_true(fabs((double)sine[s + margin] - sin(a)) < 3e-7);
                 assert_true(fabs((double)cosine[s + margin] - sign * cos(a)) < 3e-7);
             }

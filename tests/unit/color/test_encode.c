@@ -10,9 +10,9 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/encode.h"
 #include "color/line/line.h"
-#include "color/space/transform.h"
+#include "color/space/builtin.h"
 #include "filters/base/half.h"
 
 enum { HALVES = 0x7c00 };
@@ -128,7 +128,7 @@ static void halves_are_rounded_away_from_zero(void **state) {
     }
 }
 
-/* Colours: within one code of the formula, and nearly always the same. */
+/* Colors: within one code of the formula, and nearly always the same. */
 static void colors_follow_the_formula(void **state) {
     (void)state;
     enum { COUNT = 20000 };

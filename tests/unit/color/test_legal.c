@@ -10,8 +10,10 @@
 #include <cmocka.h>
 
 #include "color/codes/chroma.h"
-#include "color/codes/display.h"
+#include "color/codes/encode.h"
 #include "color/codes/legal.h"
+#include "color/codes/levels.h"
+#include "color/codes/r103.h"
 
 #define WIDTH 720
 #define LINES 40
@@ -384,7 +386,7 @@ static void light_of_colored_edges_is_kept(void **unused) {
     }
 }
 
-static void greys_are_not_adjusted(void **unused) {
+static void grays_are_not_adjusted(void **unused) {
     (void)unused;
     static wf_display display;
     static coded plain, adjusted;
@@ -408,7 +410,7 @@ int main(void) {
         cmocka_unit_test(luma_and_hue_are_kept),
         cmocka_unit_test(pictures_are_kept_in_hue),
         cmocka_unit_test(light_of_colored_edges_is_kept),
-        cmocka_unit_test(greys_are_not_adjusted),
+        cmocka_unit_test(grays_are_not_adjusted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,9 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "color/space/builtin.h"
 #include "color/space/ocio/ocio.h"
+#include "color/space/space.h"
 #include "convert/base/module.h"
 
 static wf_ocio_open_fn *ocio_open;
@@ -63,7 +65,7 @@ static double random_unit(uint64_t *state) {
     return (double)(random_bits(state) >> 11) * 0x1p-53;
 }
 
-/* Colours that every set of primaries can show, from 2^-18 to 2^6, and runs of equal ones. */
+/* Colors that every set of primaries can show, from 2^-18 to 2^6, and runs of equal ones. */
 static void random_colors(float rgb[3][PIXELS], uint64_t seed) {
     for (int i = 0; i < PIXELS; i++) {
         double level = exp2(-18 + 24 * random_unit(&seed));
@@ -109,11 +111,10 @@ static void compare(const char *from, const char *to) {
 
 static void every_pair(void **state) {
     (void)state;
-    bool from_is_output, to_is_output;
-    const char *from, *to;
-    for (size_t i = 0; (from = wf_builtin_space(i, &from_is_output)); i++)
-        for (size_t j = 0; (to = wf_builtin_space(j, &to_is_output)); j++)
-            if (!from_is_output) compare(from, to);
+    const wf_space *from, *to;
+    for (size_t i = 0; (from = wf_space_at(i)); i++)
+        for (size_t j = 0; (to = wf_space_at(j)); j++)
+            if (!from->curve) compare(from->name, to->name);
     print_message("at most %.2g apart\n", worst);
 }
 

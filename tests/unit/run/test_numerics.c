@@ -11,7 +11,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "color/codes/encoder.h"
+#include "color/codes/encode.h"
 #include "color/line/line.h"
 #include "color/space/space.h"
 #include "convert/run/frames.h"

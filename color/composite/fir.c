@@ -1,12 +1,10 @@
 /* Filters along a line of composite video. */
-#include <stddef.h>
-
-#include "color/composite/composite_parts.h"
+#include "color/composite/fir.h"
 
 /* Least squares for a raised cosine edge (chroma from 0.9 to 2.4 MHz, luma from 1.4 to 2.4 MHz,
  * at 13.5 MHz), the stop band counted thirtyfold, held to be 1 at 0 Hz and 0 at fsc and 2 fsc
  * of both systems: 3.580, 4.434 MHz and, folded, 6.341, 4.633 MHz. At least 42 dB down from 2.4
- * MHz on and 56 dB from 3 MHz on. tests/test_composite.c measures them. */
+ * MHz on and 56 dB from 3 MHz on. tests/unit/color/test_composite.c measures them. */
 static const wf_fir chroma = {12,
                               {0.244490936f, 0.21838522f, 0.151428565f, 0.0706238374f,
                                0.00452812808f, -0.0303081665f, -0.0339540541f, -0.0196698941f,

@@ -1,9 +1,7 @@
-#ifndef WF_COLOR_COMPOSITE_COMPOSITE_PARTS_H
-#define WF_COLOR_COMPOSITE_COMPOSITE_PARTS_H
+#ifndef WF_COLOR_COMPOSITE_FIR_H
+#define WF_COLOR_COMPOSITE_FIR_H
 
-#include "color/composite/composite.h"
-
-/* What the coder and the decoders share. */
+#include <stddef.h>
 
 /* A symmetric filter: tap[0] is the middle one, tap[k] those k samples before and after it. */
 #define WF_FIR_MOST 18
@@ -23,21 +21,5 @@ void wf_fir_apply(const wf_fir *fir, float *restrict out, const float *restrict 
 
 /* out[0 .. width + 2 margin), the line reflected about its first and last samples. */
 void wf_fir_reflect(float *restrict out, const float *restrict line, int width, int margin);
-
-struct wf_composite {
-    wf_tv tv;
-    const wf_tv_standard *standard;
-    wf_fir stop;          /* all but the band around the subcarrier */
-    size_t row, margin;   /* samples */
-    float *sine, *cosine; /* [row], of the subcarrier's angle after i samples */
-};
-
-/* Room for a line of scratch: a row that is about to be filtered. */
-size_t wf_composite_line_room(const wf_composite *c);
-#define WF_COMPOSITE_LINES_OF_SCRATCH 6
-
-/* sin a and cos a (its sign that of the V switch) along a row. */
-void wf_composite_carriers(const wf_composite *c, int64_t frame, int line, float *restrict sine,
-                           float *restrict cosine);
 
 #endif
