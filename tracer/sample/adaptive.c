@@ -31,7 +31,7 @@
 #define EDGE_SAMPLES 64
 #define STEEPNESS    0.7
 
-/* The square of the cosine between edges of neighbours that are one. */
+/* The square of the cosine between edges of neighbors that are one. */
 #define ALIKE 0.8
 
 /* Of the squares of errors: from here on four times as many samples are not too many. */
@@ -101,7 +101,7 @@ static bool cuts_cells(const wf_sampling *s) {
     return wf_edge_pieces(&s->desc.gather.aperture) > WF_FEW_PIECES;
 }
 
-/* The largest of a cell's and its neighbours': an edge that all quarters missed here was seen
+/* The largest of a cell's and its neighbors': an edge that all quarters missed here was seen
  * next door. */
 static double error_about(const wf_adaptive *a, int at) {
     double most = a->cell[at].error;
@@ -175,7 +175,7 @@ static bool follows(const trend *t, const wf_adaptive_cell *c, int right, int do
     return all;
 }
 
-/* Whether the edge through a neighbour, so many cells to the right and down, comes no nearer
+/* Whether the edge through a neighbor, so many cells to the right and down, comes no nearer
  * than `past` when it goes on as it is. That rows of a skewed field are a little later than the
  * one above is left out: some thousandth of a window. */
 static bool passes_by(const wf_adaptive_edge *edge, int right, int down, double past) {
@@ -308,7 +308,7 @@ static bool find_edges(wf_adaptive *a) {
     return true;
 }
 
-/* Whether a neighbour's edge comes in across a cell's own: there is a corner, of which samples
+/* Whether a neighbor's edge comes in across a cell's own: there is a corner, of which samples
  * may not have seen enough to tell. */
 static bool is_crossed(const wf_adaptive *a, int at) {
     const double *n = a->edge[at].n;

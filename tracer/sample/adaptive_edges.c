@@ -352,7 +352,7 @@ static void begin(wf_seeker *e) {
     if (!e->lost) find_offset(e);
 }
 
-/* From the edge of a neighbour so many cells to the right and down, as it goes on. */
+/* From the edge of a neighbor so many cells to the right and down, as it goes on. */
 static void begin_with(wf_seeker *e, const wf_adaptive_edge *edge, int right, int down) {
     const double middle[3] = {0.5 - right, 0.5 - down, 0.5};
     memcpy(e->n, edge->n, sizeof e->n);
@@ -427,12 +427,12 @@ bool wf_edges_find(wf_adaptive *a) {
 /* Those beside a cell come before those across its corners. */
 static const struct {
     int right, down;
-} neighbours[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+} neighbors[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
 
 static void follow(wf_adaptive *a, wf_seeker *e) {
     a->edge[e->at].followed = e->lost = true;
-    for (size_t k = 0; k < sizeof neighbours / sizeof *neighbours; k++) {
-        int right = neighbours[k].right, down = neighbours[k].down;
+    for (size_t k = 0; k < sizeof neighbors / sizeof *neighbors; k++) {
+        int right = neighbors[k].right, down = neighbors[k].down;
         const wf_adaptive_edge *edge = wf_edge_coming(a, e->at, right, down);
         if (!edge) continue;
         e->lost = false;

@@ -97,7 +97,7 @@ void wf_sum_side(const wf_seeker *e, int side, wf_side_sums *f) {
 }
 
 /* A side's color as it changes evenly over the cell: least squares. Where nothing was seen of
- * it, it is what a neighbour saw. */
+ * it, it is what a neighbor saw. */
 void wf_fit_color(const wf_side_sums *f, const double mean[3], double rgb[3][4]) {
     for (int c = 0; c < 3; c++) {
         double m[3][3], slope[3];

@@ -67,7 +67,7 @@ void wf_find_colors(wf_seeker *e);
 void wf_sum_side(const wf_seeker *e, int side, wf_side_sums *sums);
 
 /* A side's color as it changes evenly over the cell. Where nothing was seen of it, it is what a
- * neighbour saw. */
+ * neighbor saw. */
 void wf_fit_color(const wf_side_sums *sums, const double mean[3], double rgb[3][4]);
 
 /* What a side's color leaves uncertain of the cell's; squared, display-encoded. */

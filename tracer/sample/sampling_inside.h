@@ -145,7 +145,7 @@ static inline int wf_cell_y(const wf_adaptive *a, int at) {
  * too. */
 int wf_adaptive_rows_about(const wf_sampling *s);
 
-/* The edge of a cell's neighbour, so many to the right and down, if it comes into the cell as
+/* The edge of a cell's neighbor, so many to the right and down, if it comes into the cell as
  * it goes on; else NULL. */
 const wf_adaptive_edge *wf_edge_coming(const wf_adaptive *a, int at, int right, int down);
 
@@ -163,7 +163,7 @@ double wf_adaptive_target(const wf_adaptive *a);
 /* ---- adaptive_edges.c ---- */
 
 /* Looks for one edge through each cell in question: where its samples differ, or where that
- * of a neighbour goes on. False: no memory. */
+ * of a neighbor goes on. False: no memory. */
 bool wf_edges_find(wf_adaptive *a);
 bool wf_edges_follow(wf_adaptive *a);
 

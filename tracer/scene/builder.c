@@ -1,3 +1,4 @@
+/* The graph that a script builds, and how it is unfolded into a scene's arrays. */
 #include "tracer/scene/builder.h"
 
 #include <stdlib.h>
@@ -11,13 +12,13 @@ wf_builder *wf_builder_of(lua_State *lua) {
 }
 
 void *wf_list_grow(lua_State *lua, wf_list *list, size_t item_bytes, size_t more) {
-    if (list->count + more > list->room) {
-        size_t room = list->count + more + list->room / 2 + 16;
-        wf_sandbox_take(lua, (room - list->room) * item_bytes);
-        void *grown = realloc(list->items, room * item_bytes);
+    if (list->count + more > list->capacity) {
+        size_t capacity = list->count + more + list->capacity / 2 + 16;
+        wf_sandbox_take(lua, (capacity - list->capacity) * item_bytes);
+        void *grown = realloc(list->items, capacity * item_bytes);
         if (!grown) wf_scene_error(lua, "scene", "no memory");
         list->items = grown;
-        list->room = room;
+        list->capacity = capacity;
     }
     if (list->count + more > INT32_MAX) wf_scene_error(lua, "scene", "it is too large");
     void *first = (char *)list->items + list->count * item_bytes;
@@ -80,8 +81,8 @@ static bool same_op(const wf_op *a, const wf_op *b) {
            !memcmp(&a->place, &b->place, sizeof a->place);
 }
 
-/* How many of the last operators are looked through for an equal one: solids that turn together
- * were mostly said to one after another. */
+/* How many of the last operators are looked through for an equal one: a script mostly adds the
+ * solids that move together one after another. */
 #define RECENT 32
 
 static int add_op(lua_State *lua, wf_builder *b, wf_op op) {
@@ -167,17 +168,17 @@ static void emit_solid(lua_State *lua, wf_builder *b, const wf_node *node, const
 /* What is still to be visited is kept as a Lua value, so that errors lose no memory. */
 typedef struct route {
     visit *visits;
-    int count, room;
+    int count, capacity;
 } route;
 
 static void go_to(lua_State *lua, route *r, int node, const context *around) {
-    if (r->count == r->room) {
-        int room = 2 * r->room + 64;
-        visit *grown = lua_newuserdatauv(lua, (size_t)room * sizeof *grown, 0);
+    if (r->count == r->capacity) {
+        int capacity = 2 * r->capacity + 64;
+        visit *grown = lua_newuserdatauv(lua, (size_t)capacity * sizeof *grown, 0);
         if (r->count) memcpy(grown, r->visits, (size_t)r->count * sizeof *grown);
         lua_replace(lua, -2); /* the one before may be collected */
         r->visits = grown;
-        r->room = room;
+        r->capacity = capacity;
     }
     r->visits[r->count++] = (visit){node, 0, *around};
 }

@@ -17,17 +17,17 @@ typedef enum wf_node_kind {
     WF_NODE_LIGHT
 } wf_node_kind;
 
-/* One node; of what kind decides what `index` counts. */
+/* One node. Its kind says which array `index` counts in. */
 typedef struct wf_node {
     uint8_t kind, step; /* step: wf_step_kind of a CSG node */
-    int index;          /* SOLID: solids; OP: ops; MATERIAL: materials; WIDTH: widths; LIGHT */
+    int index;          /* of the builder's solids, ops, materials, widths or lights */
     int first_child, child_count;
 } wf_node;
 
 /* An array that grows within the script's memory. */
 typedef struct wf_list {
     void *items;
-    size_t count, room;
+    size_t count, capacity;
 } wf_list;
 
 typedef struct wf_builder {
@@ -37,7 +37,7 @@ typedef struct wf_builder {
     wf_scene *scene;
     wf_list nodes, children;     /* wf_node, int */
     wf_list solids, ops, widths; /* as described: wf_solid, wf_op, double */
-    wf_list out_ops, out_solids, out_steps, out_objects, out_lights; /* unfolded */
+    wf_list out_ops, out_solids, out_steps, out_objects; /* unfolded */
     wf_list keys, materials, images, planes, lights;
     wf_list light_nodes; /* int: the node each light stands for */
     int camera_node;     /* -1: none yet */
@@ -46,8 +46,8 @@ typedef struct wf_builder {
 
 wf_builder *wf_builder_of(lua_State *lua);
 
-/* Room for `more` items at the end of a list; returns the first of them, zeroed. Raises a Lua
- * error when memory is out. */
+/* Adds `more` items to the end of a list; returns the first of them, zeroed. Raises a Lua error
+ * when memory is out. */
 void *wf_list_grow(lua_State *lua, wf_list *list, size_t item_bytes, size_t more);
 
 /* A new node with children (copied); returns its index. */
@@ -59,16 +59,5 @@ void wf_unfold(lua_State *lua, int node);
 
 /* Unfolds what is around a camera's or light's node into operators; returns the innermost. */
 int wf_unfold_ops(lua_State *lua, int node);
-
-/* Makes the functions of scenes known to a sandbox (solids.c, words.c). */
-void wf_open_solids(lua_State *lua);
-void wf_open_words(lua_State *lua);
-
-/* The type of textures among Lua's userdata: wf_texture. */
-#define WF_LUA_TEXTURE "weft texture"
-
-/* A solid (or camera, or light) as a Lua value, and back. */
-void wf_push_node(lua_State *lua, int node);
-int wf_check_node(lua_State *lua, int arg, const char *what);
 
 #endif

@@ -1,42 +1,16 @@
+/* Runs a scene file and takes over what it built. */
 #include "tracer/scene/load.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "filters/base/spelling.h"
 #include "tracer/scene/builder.h"
-#include "tracer/scene/lua_table.h"
+#include "tracer/scene/language.h"
 #include "tracer/scene/script.h"
 
 /* ---- Files ---- */
-
-char *wf_script_read(const char *path, size_t most, size_t *size, char *why, size_t why_size) {
-    struct stat info;
-    char *text = NULL;
-    if (stat(path, &info)) {
-        snprintf(why, why_size, "%s: %s", path, strerror(errno));
-        return NULL;
-    }
-    if (!S_ISREG(info.st_mode) || (size_t)info.st_size > most) {
-        snprintf(why, why_size, "%s: %s", path,
-                 S_ISREG(info.st_mode) ? "it is larger than --scene-memory allows"
-                                       : "it is not a file");
-        return NULL;
-    }
-    FILE *file = fopen(path, "rb");
-    if (file) text = malloc((size_t)info.st_size + 1);
-    if (text) *size = fread(text, 1, (size_t)info.st_size, file);
-    if (!text || ferror(file)) {
-        snprintf(why, why_size, "%s: %s", path, file ? "it cannot be read" : strerror(errno));
-        free(text);
-        text = NULL;
-    }
-    if (file) fclose(file);
-    return text;
-}
 
 /* The folder of a file as an absolute path that ends with a slash; free it. */
 static char *folder_of(const char *path) {
@@ -71,8 +45,7 @@ static int open_scene(lua_State *lua) {
                   {"pixel_aspect", o->pixel_aspect},
                   {"frame_rate", o->frame_rate},
                   {"field_rate", o->field_rate}};
-    wf_open_solids(lua);
-    wf_open_words(lua);
+    wf_open_language(lua);
     lua_newtable(lua);
     for (size_t i = 0; i < sizeof raster / sizeof *raster; i++) {
         lua_pushnumber(lua, raster[i].value);

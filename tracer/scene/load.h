@@ -3,7 +3,8 @@
 
 #include "tracer/scene/scene.h"
 
-/* Reads a picture for a texture as scene-linear floats. False with a reason. */
+/* Reads a picture for a texture as scene-linear floats, which the scene then owns. False with a
+ * reason. */
 typedef bool wf_image_load_fn(void *user, const char *path, bool srgb, wf_image *out, char *why,
                               size_t why_size);
 

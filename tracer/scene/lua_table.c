@@ -1,3 +1,4 @@
+/* Reads the tables and values of a script, with errors that say what was expected. */
 #include "tracer/scene/lua_table.h"
 
 #include <math.h>
@@ -6,6 +7,7 @@
 #include <string.h>
 
 #include "filters/base/spelling.h"
+#include "tracer/scene/vec.h"
 
 /* Where the script is, whichever function of ours or of the library has been called. */
 static void push_place(lua_State *lua) {
@@ -29,16 +31,6 @@ int wf_scene_error(lua_State *lua, const char *what, const char *format, ...) {
     lua_pushfstring(lua, "%s: %s", what, text);
     lua_concat(lua, 2);
     return lua_error(lua);
-}
-
-int wf_scene_unknown(lua_State *lua, const char *what, const char *name,
-                     const luaL_Reg *names) {
-    wf_spelling spelling = {.text = name};
-    for (; names->name; names++) wf_spelling_offer(&spelling, names->name);
-    if (spelling.best)
-        return wf_scene_error(lua, what, "there is no '%.60s'; did you mean %s?", name,
-                              spelling.best);
-    return wf_scene_error(lua, what, "there is no '%.60s'", name);
 }
 
 /* ---- Values ---- */
@@ -85,6 +77,15 @@ wf_vec wf_read_vector(lua_State *lua, const char *what, const char *name) {
     return (wf_vec){v[0], v[1], v[2]};
 }
 
+double wf_read_entry(lua_State *lua, const char *what, int at) {
+    char name[24];
+    snprintf(name, sizeof name, "value %d", at);
+    lua_rawgeti(lua, -1, at);
+    double v = wf_read_number(lua, what, name);
+    lua_pop(lua, 1);
+    return v;
+}
+
 static void number(lua_State *lua, const char *what, const char *name, void *to) {
     *(double *)to = wf_read_number(lua, what, name);
 }
@@ -111,12 +112,9 @@ static void vector(lua_State *lua, const char *what, const char *name, void *to)
 
 static void direction(lua_State *lua, const char *what, const char *name, void *to) {
     wf_vec v = wf_read_vector(lua, what, name);
-    double far = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-    if (!(far >= SMALLEST))
+    if (!(wf_vec_largest(v) >= SMALLEST))
         wf_scene_error(lua, what, "%s must be a direction, and {0, 0, 0} is none", name);
-    v = (wf_vec){v.x / far, v.y / far, v.z / far};
-    double size = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-    *(wf_vec *)to = (wf_vec){v.x / size, v.y / size, v.z / size};
+    *(wf_vec *)to = wf_vec_unit(v);
 }
 
 static void positives(lua_State *lua, const char *what, const char *name, void *to) {
@@ -141,14 +139,14 @@ static void pair(lua_State *lua, const char *what, const char *name, void *to) {
 
 static void color(lua_State *lua, const char *what, const char *name, void *to) {
     double v[3];
-    bool grey = lua_type(lua, -1) == LUA_TNUMBER;
-    if (!grey && (lua_type(lua, -1) != LUA_TTABLE || lua_rawlen(lua, -1) != 3))
-        wrong(lua, what, name, "a color, {r, g, b} or a grey");
+    bool gray = lua_type(lua, -1) == LUA_TNUMBER;
+    if (!gray && (lua_type(lua, -1) != LUA_TTABLE || lua_rawlen(lua, -1) != 3))
+        wrong(lua, what, name, "a color, {r, g, b} or a gray");
     for (int k = 0; k < 3; k++) {
-        if (!grey) lua_rawgeti(lua, -1, k + 1);
+        if (!gray) lua_rawgeti(lua, -1, k + 1);
         v[k] = wf_read_number(lua, what, name);
         if (v[k] < 0 || v[k] > 65504) wrong(lua, what, name, "from 0 to 65504");
-        if (!grey) lua_pop(lua, 1);
+        if (!gray) lua_pop(lua, 1);
         ((float *)to)[k] = (float)v[k];
     }
 }
@@ -170,44 +168,44 @@ static void other(lua_State *lua, const char *what, const char *name, void *to) 
 typedef void read_fn(lua_State *lua, const char *what, const char *name, void *to);
 
 static read_fn *const read[] = {
-    [WF_FIELD_NUMBER] = number,       [WF_FIELD_POSITIVE] = read_positive,
-    [WF_FIELD_SHARE] = share,         [WF_FIELD_NOT_NEGATIVE] = not_negative,
-    [WF_FIELD_VECTOR] = vector,       [WF_FIELD_DIRECTION] = direction,
-    [WF_FIELD_POSITIVES] = positives, [WF_FIELD_PAIR] = pair,
-    [WF_FIELD_COLOR] = color,         [WF_FIELD_BOOL] = boolean,
-    [WF_FIELD_TEXT] = text,           [WF_FIELD_OTHER] = other,
+    [WF_KEY_NUMBER] = number,       [WF_KEY_POSITIVE] = read_positive,
+    [WF_KEY_SHARE] = share,         [WF_KEY_NOT_NEGATIVE] = not_negative,
+    [WF_KEY_VECTOR] = vector,       [WF_KEY_DIRECTION] = direction,
+    [WF_KEY_POSITIVES] = positives, [WF_KEY_PAIR] = pair,
+    [WF_KEY_COLOR] = color,         [WF_KEY_BOOL] = boolean,
+    [WF_KEY_TEXT] = text,           [WF_KEY_OTHER] = other,
 };
 
 /* ---- Tables ---- */
 
-static void unknown(lua_State *lua, const char *what, const wf_field_row *rows,
+static void unknown(lua_State *lua, const char *what, const wf_lua_key *keys,
                     const char *name) {
     wf_spelling spelling = {.text = name};
     char list[256] = "";
     size_t used = 0;
-    for (const wf_field_row *row = rows; row->name; row++) {
-        wf_spelling_offer(&spelling, row->name);
+    for (const wf_lua_key *key = keys; key->name; key++) {
+        wf_spelling_offer(&spelling, key->name);
         if (used < sizeof list - 1)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "",
-                                     row->name);
+                                     key->name);
     }
     if (spelling.best)
-        wf_scene_error(lua, what, "there is no field '%.60s'; did you mean %s?", name,
+        wf_scene_error(lua, what, "there is no key '%.60s'; did you mean %s?", name,
                        spelling.best);
-    wf_scene_error(lua, what, "there is no field '%.60s'; it takes %s", name,
-                   *list ? list : "no named fields");
+    wf_scene_error(lua, what, "there is no key '%.60s'; it takes %s", name,
+                   *list ? list : "no keys");
 }
 
-static void check_keys(lua_State *lua, int index, const char *what, const wf_field_row *rows,
+static void check_keys(lua_State *lua, int index, const char *what, const wf_lua_key *keys,
                        int positions) {
     lua_pushnil(lua);
     while (lua_next(lua, index)) {
         lua_pop(lua, 1);
         if (lua_type(lua, -1) == LUA_TSTRING) {
             const char *name = lua_tostring(lua, -1);
-            const wf_field_row *row = rows;
-            while (row->name && strcmp(row->name, name)) row++;
-            if (!row->name) unknown(lua, what, rows, name);
+            const wf_lua_key *key = keys;
+            while (key->name && strcmp(key->name, name)) key++;
+            if (!key->name) unknown(lua, what, keys, name);
         } else {
             lua_Integer at = lua_isinteger(lua, -1) ? lua_tointeger(lua, -1) : 0;
             if (at < 1 || at > positions)
@@ -219,23 +217,30 @@ static void check_keys(lua_State *lua, int index, const char *what, const wf_fie
     }
 }
 
-void wf_read_fields(lua_State *lua, int index, const char *what, const wf_field_row *rows,
-                    int positions, void *out) {
+bool wf_has_key(lua_State *lua, int index, const char *name) {
+    lua_getfield(lua, index, name);
+    bool there = !lua_isnil(lua, -1);
+    lua_pop(lua, 1);
+    return there;
+}
+
+void wf_read_keys(lua_State *lua, int index, const char *what, const wf_lua_key *keys,
+                  int positions, void *out) {
     index = lua_absindex(lua, index);
     if (lua_type(lua, index) != LUA_TTABLE) {
         lua_pushvalue(lua, index);
         wf_scene_error(lua, what, "it takes a table, as in %s{%s%s}, not %s", what,
-                       rows->name ? rows->name : "", rows->name ? "=.." : "..",
+                       keys->name ? keys->name : "", keys->name ? "=.." : "..",
                        luaL_typename(lua, -1));
     }
-    check_keys(lua, index, what, rows, positions);
-    for (const wf_field_row *row = rows; row->name; row++) {
-        lua_pushstring(lua, row->name);
+    check_keys(lua, index, what, keys, positions);
+    for (const wf_lua_key *key = keys; key->name; key++) {
+        lua_pushstring(lua, key->name);
         lua_rawget(lua, index);
         if (!lua_isnil(lua, -1))
-            read[row->kind](lua, what, row->name, (char *)out + row->offset);
-        else if (row->required)
-            wf_scene_error(lua, what, "the field %s= is missing", row->name);
+            read[key->kind](lua, what, key->name, (char *)out + key->offset);
+        else if (key->required)
+            wf_scene_error(lua, what, "the key %s= is missing", key->name);
         lua_pop(lua, 1);
     }
 }

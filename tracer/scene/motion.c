@@ -1,3 +1,4 @@
+/* Affine maps, and the operators that move solids, lights and cameras at instants. */
 #include "tracer/scene/motion.h"
 
 #include <math.h>
@@ -32,8 +33,8 @@ wf_affine wf_compose(const wf_affine *outer, const wf_affine *inner) {
     return c;
 }
 
-/* a - b, where what is left when all cancels is rounding and none: an axis of a turned solid
- * stays square to what it was square to. */
+/* a - b, or 0 where all but rounding cancels: an axis of a rotated solid stays square to what
+ * it was square to. */
 static double less(double a, double b) {
     double rest = a - b;
     return fabs(rest) > (fabs(a) + fabs(b)) * 0x1p-50 ? rest : 0;
@@ -53,6 +54,25 @@ bool wf_invert(const wf_affine *a, wf_affine *out) {
     wf_vec back = wf_turn(out, a->d);
     out->d = (wf_vec){-back.x, -back.y, -back.z};
     return true;
+}
+
+wf_affine wf_identity(void) {
+    return (wf_affine){.m = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+
+wf_affine wf_scaling(wf_vec size, wf_vec center) {
+    return (wf_affine){.m = {{size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}}, .d = center};
+}
+
+wf_affine wf_rotation(wf_vec k, wf_vec center, double c, double s) {
+    double v = 1 - c;
+    wf_affine a = {
+        .m = {{c + k.x * k.x * v, k.x * k.y * v - k.z * s, k.x * k.z * v + k.y * s},
+              {k.y * k.x * v + k.z * s, c + k.y * k.y * v, k.y * k.z * v - k.x * s},
+              {k.z * k.x * v - k.y * s, k.z * k.y * v + k.x * s, c + k.z * k.z * v}}};
+    wf_vec moved = wf_turn(&a, center);
+    a.d = (wf_vec){center.x - moved.x, center.y - moved.y, center.z - moved.z};
+    return a;
 }
 
 /* ---- Operators ---- */
@@ -90,16 +110,8 @@ static wf_affine moved_by(wf_vec offset) {
     return (wf_affine){.m = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .d = offset};
 }
 
-/* Rotation about a unit axis through a center (Rodrigues). */
-static wf_affine turned(wf_vec k, wf_vec center, double angle) {
-    double c = cos(angle), s = sin(angle), v = 1 - c;
-    wf_affine a = {
-        .m = {{c + k.x * k.x * v, k.x * k.y * v - k.z * s, k.x * k.z * v + k.y * s},
-              {k.y * k.x * v + k.z * s, c + k.y * k.y * v, k.y * k.z * v - k.x * s},
-              {k.z * k.x * v - k.y * s, k.z * k.y * v + k.x * s, c + k.z * k.z * v}}};
-    wf_vec moved = wf_turn(&a, center);
-    a.d = (wf_vec){center.x - moved.x, center.y - moved.y, center.z - moved.z};
-    return a;
+static wf_affine turned(const wf_op *op, double angle) {
+    return wf_rotation(op->axis, op->center, cos(angle), sin(angle));
 }
 
 static wf_affine by_quaternion(const double q[4], wf_vec position) {
@@ -149,7 +161,7 @@ wf_affine wf_op_at(const wf_ready_op *r, double dt_s) {
     case WF_OP_VELOCITY:
         return moved_by(drifted(r, dt_s, 1));
     case WF_OP_SPIN:
-        return turned(r->op->axis, r->op->center, angle_at(r, dt_s));
+        return turned(r->op, angle_at(r, dt_s));
     case WF_OP_KEYS:
         return keyed(r, dt_s);
     default:
@@ -163,7 +175,7 @@ wf_affine wf_op_inverse_at(const wf_ready_op *r, double dt_s) {
     case WF_OP_VELOCITY:
         return moved_by(drifted(r, dt_s, -1));
     case WF_OP_SPIN:
-        return turned(r->op->axis, r->op->center, -angle_at(r, dt_s));
+        return turned(r->op, -angle_at(r, dt_s));
     case WF_OP_KEYS:
         place = keyed(r, dt_s);
         wf_invert(&place, &inverse);

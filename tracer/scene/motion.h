@@ -4,7 +4,8 @@
 #include "filters/base/rational.h"
 #include "tracer/scene/scene.h"
 
-/* Operators at instants: an exact base, and small offsets from it in double. */
+/* Affine maps, and operators at instants: an exact base, and small offsets from it in double.
+ */
 
 /* An operator made ready for offsets from one base: what depends on the base is worked in more
  * than double, so that an angle at frame 10^7 is as good as one at frame 0. */
@@ -33,5 +34,12 @@ wf_vec wf_turn(const wf_affine *a, wf_vec v);              /* a direction */
 wf_vec wf_turn_normal(const wf_affine *inverse, wf_vec n); /* a normal, by the map's inverse */
 wf_affine wf_compose(const wf_affine *outer, const wf_affine *inner);
 bool wf_invert(const wf_affine *a, wf_affine *out); /* false if singular */
+
+wf_affine wf_identity(void);
+wf_affine wf_scaling(wf_vec size, wf_vec center); /* about the origin, which goes to center */
+
+/* The rotation about a unit axis through a center by the angle of that cosine and sine
+ * (Rodrigues' formula). */
+wf_affine wf_rotation(wf_vec axis, wf_vec center, double cosine, double sine);
 
 #endif

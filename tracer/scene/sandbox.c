@@ -1,3 +1,4 @@
+/* A Lua state without what does harm, with its budgets of steps and memory. */
 #include "tracer/scene/sandbox.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* What is done to a scene as a whole. */
 #include "tracer/scene/scene.h"
 
 #include <stdlib.h>

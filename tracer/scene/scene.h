@@ -62,9 +62,9 @@ typedef struct wf_texture {
     float color[2][3];
     double size;                 /* checker: edge of a cell; stripe: width of one stripe */
     wf_vec axis;                 /* stripe: unit direction across the stripes */
-    wf_vec center, across, down; /* zoneplate, image: a corner or the centre, and unit axes */
-    double height; /* zoneplate: H, picture lines: 1/2 + 1/2 cos(pi r^2 / H), r in units */
-    double width;  /* image: size of the picture in units along across and down (height) */
+    wf_vec center, across, down; /* zoneplate: its center; image: a corner; and unit axes */
+    double height; /* zoneplate: H of 1/2 + 1/2 cos(pi r^2 / H), r in units; image: units */
+    double width;  /* image: units along `across`, as height is along `down` */
     int image;     /* index of the scene's images */
     bool repeat;
 } wf_texture;
@@ -76,26 +76,29 @@ typedef struct wf_image {
 
 typedef struct wf_material {
     float color[3];
-    wf_texture texture; /* its colour takes the place of color where there is one */
+    wf_texture texture; /* its color takes the place of color where there is one */
     float ambient, diffuse, specular, shininess, reflect;
     float refract; /* share of light that passes; 0: opaque */
     float index;   /* of refraction */
-    bool unlit;    /* the colour itself is what is seen */
+    bool unlit;    /* the color itself is what is seen */
 } wf_material;
 
 /* ---- Solids ---- */
 
-/* Kinds in canonical form; where a solid stands and how big it is, its operators say.
- *   sphere     x^2 + y^2 + z^2 <= 1
- *   box        |x|, |y|, |z| <= 1
- *   cylinder   x^2 + z^2 <= 1, |y| <= 1
- *   cone       x^2 + z^2 <= (radius at y)^2, |y| <= 1, radius linear from shape[0] at y = -1 to
- *              shape[1] at y = 1, the larger of them 1
- *   torus      (sqrt(x^2 + z^2) - 1)^2 + y^2 <= shape[0]^2, 0 < shape[0]
- *   halfspace  y <= 0
- *   quadric    the ten coefficients q of q0 x^2 + q1 y^2 + q2 z^2 + q3 xy + q4 yz + q5 zx + q6
- * x + q7 y + q8 z + q9 <= 0 polyhedron planes n . p <= d, the scene's planes from first_plane
- * on; shape[6] > 0: its corners lie within shape[0..2] and shape[3..5] */
+/* clang-format off */
+/* Kinds in canonical form; where a solid stands and how big it is, its placement says.
+ *   sphere      x^2 + y^2 + z^2 <= 1
+ *   box         |x|, |y|, |z| <= 1
+ *   cylinder    x^2 + z^2 <= 1, |y| <= 1
+ *   cone        x^2 + z^2 <= (radius at y)^2, |y| <= 1; the radius is linear from shape[0] at
+ *               y = -1 to shape[1] at y = 1, and the larger of them is 1
+ *   torus       (sqrt(x^2 + z^2) - 1)^2 + y^2 <= shape[0]^2, 0 < shape[0]
+ *   halfspace   y <= 0
+ *   quadric     q0 x^2 + q1 y^2 + q2 z^2 + q3 xy + q4 yz + q5 zx + q6 x + q7 y + q8 z + q9 <= 0,
+ *               q the ten numbers of shape
+ *   polyhedron  n . p <= d for all of plane_count of the scene's planes from first_plane on;
+ *               shape[6] > 0: its corners lie between shape[0..2] and shape[3..5] */
+/* clang-format on */
 typedef enum wf_solid_kind {
     WF_SPHERE,
     WF_BOX,
@@ -119,8 +122,8 @@ typedef struct wf_solid {
     wf_affine place; /* canonical to the space where op takes it up: never singular */
     wf_affine inverse;
     int op;      /* first operator applied to it; -1: it stands in the world */
-    int written; /* WF_OP_PLACE that is in place already: its inverse leads from there to the
-                    space in which the solid was written; -1: that is the same */
+    int written; /* the WF_OP_PLACE that `place` includes already: its inverse leads from op's
+                    space to the one in which the solid was written; -1: that is the same */
     int material;
 } wf_solid;
 
@@ -157,7 +160,7 @@ typedef struct wf_light {
     double cos_inner, cos_outer; /* spot: full inside, dark outside, smooth between */
     double fall_off;             /* 0: none; 2: by the squared distance, 1 at distance 1 */
     float color[3];
-    int op;
+    int op; /* as of a solid */
     bool shadows;
 } wf_light;
 
@@ -165,14 +168,14 @@ typedef struct wf_camera {
     wf_vec eye, forward, right, up; /* orthonormal */
     double half_height; /* perspective: tangent of half the vertical angle; else units */
     bool orthographic;
-    int op;
+    int op; /* as of a solid */
 } wf_camera;
 
 typedef struct wf_scene {
     double duration_s;
     float background[3];
     wf_camera camera;
-    char color_space[64]; /* of its colours; "" : lin_rec709 */
+    char color_space[64]; /* of its colors; "" : lin_rec709 */
     int depth_limit;      /* of reflections and refractions */
     wf_op *ops;
     wf_key *keys;

@@ -1,7 +1,6 @@
 #ifndef WF_TRACER_SCENE_SCRIPT_H
 #define WF_TRACER_SCENE_SCRIPT_H
 
-#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -129,17 +129,17 @@ static wf_bounds keyed(const wf_ready_op *r, double from, double to, wf_bounds b
         double far = most(fabs(b.low[k]), fabs(b.high[k]));
         reach += far * far;
     }
-    bool turns = false;
+    bool rotates = false;
     for (int k = 0; k < r->op->key_count; k++) {
         double t = keys[k].time_s - r->base_s;
-        for (int q = 0; q < 4; q++) turns |= keys[k].turn[q] != keys[0].turn[q];
+        for (int q = 0; q < 4; q++) rotates |= keys[k].turn[q] != keys[0].turn[q];
         if (t <= from || t >= to) continue;
         at = wf_op_at(r, t);
         out = wf_bounds_unite(out, wf_bounds_place(&at, b));
     }
     at = wf_op_at(r, to);
     out = wf_bounds_unite(out, wf_bounds_place(&at, b));
-    for (int k = 0; turns && k < 3; k++) {
+    for (int k = 0; rotates && k < 3; k++) {
         out.low[k] -= 2 * sqrt(reach);
         out.high[k] += 2 * sqrt(reach);
     }

@@ -52,8 +52,8 @@ static void enter(const wf_tracer *t, const wf_rays *outer, wf_carried *c) {
         t->packet->drift_in(op, c->dt_s, outer, &c->rays);
         return;
     case WF_OP_SPIN:
-        t->packet->turn(op, c->dt_s, &c->turns);
-        t->packet->spin_in(op, &c->turns, outer, &c->rays);
+        t->packet->find_sincos(op, c->dt_s, &c->spin);
+        t->packet->spin_in(op, &c->spin, outer, &c->rays);
         return;
     case WF_OP_KEYS:
         keyed_in(op, c->dt_s, outer, &c->rays);
@@ -64,7 +64,7 @@ static void enter(const wf_tracer *t, const wf_rays *outer, wf_carried *c) {
 static void leave(const wf_tracer *t, const wf_carried *c, wf_points *normals) {
     const wf_ready_op *op = &t->ops[c->op];
     if (op->op->kind == WF_OP_PLACE) t->packet->place_normals(&op->inverse, normals);
-    if (op->op->kind == WF_OP_SPIN) t->packet->spin_out(op, &c->turns, normals);
+    if (op->op->kind == WF_OP_SPIN) t->packet->spin_out(op, &c->spin, normals);
     if (op->op->kind == WF_OP_KEYS) keyed_out(op, c->dt_s, normals);
 }
 

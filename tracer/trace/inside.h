@@ -43,7 +43,7 @@ struct wf_tracer {
 /* One packet in one operator's space. */
 typedef struct wf_carried {
     wf_rays rays;
-    wf_turns turns;
+    wf_sincos spin;
     double dt_s[WF_PACKET];
     wf_shaft shaft; /* of the rays */
     int op;

@@ -8,10 +8,10 @@
 /* What is done to whole packets, compiled for each instruction set; all give the same bits.
  * Loops run over all WF_PACKET places of a packet, of which those past its count are copies. */
 
-/* How far an operator has turned each ray. */
-typedef struct wf_turns {
+/* Cosine and sine of how far an operator has rotated by each ray's time. */
+typedef struct wf_sincos {
     _Alignas(64) double cos[WF_PACKET], sin[WF_PACKET];
-} wf_turns;
+} wf_sincos;
 
 typedef struct wf_packet_ops {
     /* Rays through an affine map. */
@@ -19,11 +19,11 @@ typedef struct wf_packet_ops {
     /* Rays into an operator's space, at dt_s seconds from its base for each ray. */
     void (*drift_in)(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
                      wf_rays *to);
-    void (*spin_in)(const wf_ready_op *op, const wf_turns *turns, const wf_rays *from,
+    void (*spin_in)(const wf_ready_op *op, const wf_sincos *spin, const wf_rays *from,
                     wf_rays *to);
-    void (*turn)(const wf_ready_op *op, const double *dt_s, wf_turns *turns);
+    void (*find_sincos)(const wf_ready_op *op, const double *dt_s, wf_sincos *spin);
     /* Directions out of an operator's space, in place. */
-    void (*spin_out)(const wf_ready_op *op, const wf_turns *turns, wf_points *directions);
+    void (*spin_out)(const wf_ready_op *op, const wf_sincos *spin, wf_points *directions);
     /* Normals through the map whose inverse is given, in place. */
     void (*place_normals)(const wf_affine *inverse, wf_points *normals);
     /* Where rays are at s. */

@@ -48,10 +48,9 @@ static void drift_in(const wf_ready_op *op, const double *dt_s, const wf_rays *f
     }
 }
 
-static void turn(const wf_ready_op *op, const double *dt_s, wf_turns *turns) {
+static void find_sincos(const wf_ready_op *op, const double *dt_s, wf_sincos *spin) {
     for (int i = 0; i < WF_PACKET; i++)
-        wf_sincos_turns(op->phase + op->turns_a_second * dt_s[i], &turns->cos[i],
-                        &turns->sin[i]);
+        wf_sincos_turns(op->phase + op->turns_a_second * dt_s[i], &spin->cos[i], &spin->sin[i]);
 }
 
 /* v about the unit axis k (Rodrigues): v c + (k x v) s + k (k.v) (1 - c). */
@@ -63,12 +62,12 @@ static inline void rotate(wf_vec k, double c, double s, double *x, double *y, do
     *z = vz * c + (k.x * vy - k.y * vx) * s + k.z * along;
 }
 
-static void spin_in(const wf_ready_op *op, const wf_turns *turns, const wf_rays *from,
+static void spin_in(const wf_ready_op *op, const wf_sincos *spin, const wf_rays *from,
                     wf_rays *to) {
     wf_vec k = op->op->axis, m = op->op->center;
     *to = *from;
     for (int i = 0; i < WF_PACKET; i++) {
-        double c = turns->cos[i], s = -turns->sin[i];
+        double c = spin->cos[i], s = -spin->sin[i];
         double x = from->ox[i] - m.x, y = from->oy[i] - m.y, z = from->oz[i] - m.z;
         rotate(k, c, s, &x, &y, &z);
         to->ox[i] = x + m.x;
@@ -80,10 +79,10 @@ static void spin_in(const wf_ready_op *op, const wf_turns *turns, const wf_rays 
 
 /* ---- Directions out of them ---- */
 
-static void spin_out(const wf_ready_op *op, const wf_turns *turns, wf_points *d) {
+static void spin_out(const wf_ready_op *op, const wf_sincos *spin, wf_points *d) {
     wf_vec k = op->op->axis;
     for (int i = 0; i < WF_PACKET; i++)
-        rotate(k, turns->cos[i], turns->sin[i], &d->x[i], &d->y[i], &d->z[i]);
+        rotate(k, spin->cos[i], spin->sin[i], &d->x[i], &d->y[i], &d->z[i]);
 }
 
 static void place_normals(const wf_affine *inverse, wf_points *n) {
@@ -201,5 +200,5 @@ static void no_second_run(wf_runs *runs) {
 }
 
 const wf_packet_ops WF_ISA_TABLE(wf_packet_ops) = {
-    place, drift_in, spin_in,  turn,          spin_out, place_normals, reach, nearer,
+    place, drift_in, spin_in,  find_sincos,   spin_out, place_normals, reach, nearer,
     unit,  rounding, farthest, no_second_run, box};

@@ -1,3 +1,4 @@
+/* Where a quartic is below 0, for rays through a torus. */
 #include "tracer/trace/quartic.h"
 
 #include <math.h>
@@ -35,17 +36,17 @@ static double bracketed(const double *q, int degree, double low, double high) {
     return t;
 }
 
-/* Roots of q in from < t < to, ascending: one at most between neighbouring roots of its
+/* Roots of q in from < t < to, ascending: one at most between neighboring roots of its
  * derivative. */
 static int roots_of(const double *q, int degree, double from, double to, double *root) {
     double derivative[4], turn[6];
-    int count = 0, turns = 0;
+    int count = 0, stretches;
     if (degree < 1) return 0;
     for (int k = 1; k <= degree; k++) derivative[k - 1] = q[k] * k;
     turn[0] = from;
-    turns = 1 + roots_of(derivative, degree - 1, from, to, turn + 1);
-    turn[turns] = to;
-    for (int k = 0; k < turns; k++) {
+    stretches = 1 + roots_of(derivative, degree - 1, from, to, turn + 1);
+    turn[stretches] = to;
+    for (int k = 0; k < stretches; k++) {
         double a = value(q, degree, turn[k]), b = value(q, degree, turn[k + 1]);
         if ((a < 0) != (b < 0)) root[count++] = bracketed(q, degree, turn[k], turn[k + 1]);
     }

@@ -4,7 +4,7 @@
 #include "filters/base/isa.h"
 #include "tracer/scene/scene.h"
 
-/* Rays travel in packets, one array for each component, so that loops over them vectorise.
+/* Rays travel in packets, one array for each component, so that loops over them vectorize.
  * Counts beyond `count` up to the next multiple of 8 hold copies of the last ray and may be
  * computed. */
 #define WF_PACKET 128

@@ -9,7 +9,7 @@
 typedef struct wf_tracer wf_tracer;
 typedef struct wf_trace_scratch wf_trace_scratch;
 
-/* The raster that rays are counted in: x in pixels, y in frame lines, as in resampling.md. */
+/* The raster that rays are counted in: x in pixels, y in frame lines. */
 typedef struct wf_view {
     int width_px, lines;
     double pixel_aspect;   /* width over height */

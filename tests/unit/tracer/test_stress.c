@@ -254,8 +254,8 @@ static void powers_of_ten(void **state) {
     free(p);
 }
 
-/* A closed room far from the origin: no ray gets out between its walls. */
-static void far_rooms(void **state) {
+/* A closed box far from the origin: no ray gets out between its walls. */
+static void far_boxes(void **state) {
     const char *text =
         "local o = {148376, 1234, -223423}\n"
         "camera{eye={o[1] + 0.3, o[2] + 0.2, o[3] + 0.1}, look_at={o[1] - 1, o[2] - 1, o[3] - "
@@ -268,7 +268,7 @@ static void far_rooms(void **state) {
     scene_job job = job_of(text, 1024);
     (void)state;
     double lost = (1 - mean_of(&job)) * 1024 * WIDTH * LINES;
-    print_message("of %d rays in a room at (148376, 1234, -223423) %.2g are lost\n",
+    print_message("of %d rays in a box at (148376, 1234, -223423) %.2g are lost\n",
                   1024 * WIDTH * LINES, lost);
     assert_true(lost == 0);
 }
@@ -321,7 +321,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangents),           cmocka_unit_test(gaps),
         cmocka_unit_test(needles_and_plates), cmocka_unit_test(tori),
-        cmocka_unit_test(powers_of_ten),      cmocka_unit_test(far_rooms),
+        cmocka_unit_test(powers_of_ten),      cmocka_unit_test(far_boxes),
         cmocka_unit_test(late_frames),        cmocka_unit_test(along_planes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -209,7 +209,7 @@ static void wheel_on_a_cart(void **state) {
     }
 }
 
-/* How much every other line stands out from its neighbours, over rows first <= j < end. */
+/* How much every other line stands out from its neighbors, over rows first <= j < end. */
 static double comb(const float *frame, int width, int first, int end) {
     double sum = 0;
     for (int j = first; j < end; j++)

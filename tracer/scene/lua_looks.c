@@ -1,0 +1,64 @@
+/* Materials and temporal widths as methods of a script's solids. */
+#include "tracer/scene/language.h"
+#include "tracer/scene/lua_node.h"
+#include "tracer/scene/lua_table.h"
+
+static int call_temporal_width(lua_State *lua) {
+    wf_builder *b = wf_builder_of(lua);
+    wf_check_node(lua, 1, "temporal_width");
+    lua_settop(lua, 2);
+    double width = wf_read_number(lua, "temporal_width", "its value");
+    if (width < 0 || width > 64)
+        wf_scene_error(lua, "temporal_width", "it is from 0 to 64 field periods, not %g",
+                       width);
+    *(double *)wf_list_grow(lua, &b->widths, sizeof width, 1) = width;
+    return wf_wrap_node(lua, WF_NODE_WIDTH, (int)b->widths.count - 1, "temporal_width");
+}
+
+typedef struct look {
+    float color[3];
+    double ambient, diffuse, specular, shininess, reflect, refract, index;
+    bool unlit;
+} look;
+
+static int call_material(lua_State *lua) {
+    static const wf_lua_key keys[] = {
+        {"color", WF_KEY_COLOR, offsetof(look, color), false},
+        {"texture", WF_KEY_OTHER, 0, false},
+        {"ambient", WF_KEY_NOT_NEGATIVE, offsetof(look, ambient), false},
+        {"diffuse", WF_KEY_NOT_NEGATIVE, offsetof(look, diffuse), false},
+        {"specular", WF_KEY_NOT_NEGATIVE, offsetof(look, specular), false},
+        {"shininess", WF_KEY_NOT_NEGATIVE, offsetof(look, shininess), false},
+        {"reflect", WF_KEY_SHARE, offsetof(look, reflect), false},
+        {"refract", WF_KEY_SHARE, offsetof(look, refract), false},
+        {"index", WF_KEY_POSITIVE, offsetof(look, index), false},
+        {"unlit", WF_KEY_BOOL, offsetof(look, unlit), false},
+        {0}};
+    look k = {{0.8f, 0.8f, 0.8f}, 0.1, 0.9, 0, 40, 0, 0, 1.5, false};
+    wf_builder *b = wf_builder_of(lua);
+    wf_check_node(lua, 1, "material");
+    wf_read_keys(lua, 2, "material", keys, 0, &k);
+    wf_material m = {.color = {k.color[0], k.color[1], k.color[2]},
+                     .ambient = (float)k.ambient,
+                     .diffuse = (float)k.diffuse,
+                     .specular = (float)k.specular,
+                     .shininess = (float)k.shininess,
+                     .reflect = (float)k.reflect,
+                     .refract = (float)k.refract,
+                     .index = (float)k.index,
+                     .unlit = k.unlit};
+    lua_getfield(lua, 2, "texture");
+    if (!lua_isnil(lua, -1)) {
+        const wf_texture *texture = luaL_testudata(lua, -1, WF_LUA_TEXTURE);
+        if (!texture)
+            wf_scene_error(
+                lua, "material",
+                "texture must be checker{..}, stripe{..}, zoneplate{..} or image{..}");
+        m.texture = *texture;
+    }
+    *(wf_material *)wf_list_grow(lua, &b->materials, sizeof m, 1) = m;
+    return wf_wrap_node(lua, WF_NODE_MATERIAL, (int)b->materials.count - 1, "material");
+}
+
+const luaL_Reg wf_lua_looks[] = {
+    {"temporal_width", call_temporal_width}, {"material", call_material}, {NULL, NULL}};
