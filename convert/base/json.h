@@ -1,34 +1,36 @@
 #ifndef WF_CONVERT_BASE_JSON_H
 #define WF_CONVERT_BASE_JSON_H
 
+#include <jansson.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
+/* Containers within containers. */
 #define WF_JSON_DEPTH 8
 
-/* A JSON document being written into a growing string. Start with {0}. Members of the outermost
- * object and objects in arrays get a line each; everything else stays on its line. Keys are
- * NULL inside arrays. What is written after memory ran out is dropped; wf_json_finish tells. */
+/* A JSON document that is built member by member, by jansson. Start with {0}. Members keep the
+ * order in which they are added; keys are NULL inside arrays. Errors stick: after the first
+ * failed allocation nothing more is added, and wf_json_finish tells. */
 typedef struct wf_json {
-    char *text;
-    size_t length, room;
+    json_t *root;
+    json_t
+        *open[WF_JSON_DEPTH]; /* the containers that are open, the outermost first; borrowed */
     int depth;
-    char closer[WF_JSON_DEPTH]; /* '}' or ']' for each container that is open */
-    bool filled[WF_JSON_DEPTH]; /* it has a member already */
     bool failed;
 } wf_json;
 
 void wf_json_open(wf_json *json, const char *key, char bracket); /* '{' or '[' */
 void wf_json_close(wf_json *json);
 
-void wf_json_text(wf_json *json, const char *key, const char *value); /* NULL: null */
+/* NULL becomes null. File names may hold any bytes: those that are not UTF-8 become U+FFFD. */
+void wf_json_text(wf_json *json, const char *key, const char *value);
 void wf_json_int(wf_json *json, const char *key, int64_t value);
-void wf_json_real(wf_json *json, const char *key, double value); /* not finite: null */
+/* Nine digits of it; what is not finite becomes null. */
+void wf_json_real(wf_json *json, const char *key, double value);
 void wf_json_bool(wf_json *json, const char *key, bool value);
 
-/* Closes what is open, ends the line and hands the string over (free it); NULL: memory is out.
- */
+/* The whole document as text that ends in a newline, whatever is still open (the caller's,
+ * free()); NULL: memory is out. Releases the document in any case. */
 char *wf_json_finish(wf_json *json);
 
 #endif
