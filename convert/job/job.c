@@ -1,9 +1,11 @@
+/* A job: what it holds besides its options, and which options contradict each other. */
 #include "convert/job/job.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
+#include "convert/job/options.h"
 #include "convert/job/timecode.h"
 
 weft_job *weft_job_new(void) {
@@ -17,15 +19,18 @@ weft_job *weft_job_new(void) {
 
 void weft_job_free(weft_job *job) {
     if (!job) return;
-    char *const texts[] = {job->output,   job->frames, job->layer,      job->part,  job->ocio,
-                           job->from,     job->to,     job->display,    job->view,  job->look,
-                           job->timecode, job->report, job->oversample, job->codec, job->plan};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);
-    for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
-    for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);
-    free(job->params);
+    wf_job_release_options(job);
+    wf_job_clear_inputs(job);
     free(job->inputs);
+    free(job->output);
+    free(job->report);
+    free(job->plan);
     free(job);
+}
+
+void wf_job_clear_inputs(weft_job *job) {
+    for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
+    job->input_count = 0;
 }
 
 weft_status weft_job_add_input(weft_job *job, const char *path, weft_error *err) {

@@ -10,8 +10,8 @@
 #include "filters/raster/timing.h"
 #include "tracer/sample/sampler.h"
 
-/* Everything a conversion was asked for; convert/options.c fills it, one table row an option.
- * Strings are owned by the job. */
+/* Everything that a run is asked for. convert/job/options.c fills it, one table row an option.
+ * The job owns its strings. */
 struct weft_job {
     wf_command command;
     char **inputs;
@@ -76,15 +76,15 @@ struct weft_job {
     char *plan;                  /* of a dry run, for people; NULL: there is none */
 };
 
+/* Forgets the inputs there are. */
+void wf_job_clear_inputs(weft_job *job);
+
 /* "convert", "render", "trace". */
 const char *wf_command_name(wf_command command);
 
 /* Sends a message to the job's warning function. */
 void wf_job_warn(const weft_job *job, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-
-/* Gives a zeroed job what the presets of its options say. */
-weft_status wf_job_preset(weft_job *job, weft_error *err);
 
 /* Contradictions between options that can be seen without opening a file: what weft_job_run
  * looks at first. Options may be set in any order. */

@@ -1,6 +1,7 @@
-#include <stdlib.h>
+/* Layers of options: what a later one says wins over an earlier one. */
+#include "convert/job/job_layer.h"
 
-#include "convert/job/jobfile.h"
+#include <stdlib.h>
 
 void wf_job_layer_begin(weft_job *job, wf_job_layer *layer) {
     *layer = (wf_job_layer){job->to,     job->display,     job->view,       job->overwrite,
@@ -31,9 +32,4 @@ void wf_job_layer_end(weft_job *job, wf_job_layer *layer) {
         job->angle_given = layer->angle_given;
     }
     *layer = (wf_job_layer){0};
-}
-
-void wf_job_clear_inputs(weft_job *job) {
-    for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);
-    job->input_count = 0;
 }

@@ -2,6 +2,8 @@
 #define WF_CONVERT_JOB_JOBFILE_H
 
 #include "convert/job/job.h"
+#include "convert/job/job_layer.h"
+#include "convert/job/options.h"
 
 /* Job files: one JSON object (RFC 8259) that says what the command line says. Keys are the
  * names of options, and "inputs" (a string or an array), "output" and "command". */
@@ -31,24 +33,5 @@ typedef struct wf_jobfile_text {
 } wf_jobfile_text;
 weft_status wf_jobfile_apply(weft_job *job, const wf_jobfile_text *text,
                              const wf_jobfile_taker *taker, weft_error *err);
-
-/* Layers of options (job files, then the command line): what a layer says wins over earlier
- * ones, and options that exclude each other contradict each other only within one. Between
- * begin and end options are set as always. */
-typedef struct wf_job_layer {
-    char *to, *display, *view;
-    bool overwrite, resume, width_given, angle_given;
-} wf_job_layer;
-void wf_job_layer_begin(weft_job *job, wf_job_layer *layer);
-void wf_job_layer_end(weft_job *job, wf_job_layer *layer);
-
-/* Forgets the inputs there are. */
-void wf_job_clear_inputs(weft_job *job);
-
-/* Lowers a flag of weft_job_set's again. */
-void wf_job_clear_flag(weft_job *job, const char *name);
-
-/* Whether the option may be given several times. */
-bool wf_option_repeats(size_t index);
 
 #endif

@@ -1,4 +1,6 @@
-/* What options do with their values. */
+/* How options store their values in a job, and free what they have stored. */
+#include "convert/job/option_rows.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +8,6 @@
 #include "convert/base/range.h"
 #include "convert/base/values.h"
 #include "convert/job/delivery.h"
-#include "convert/job/option_rows.h"
 #include "filters/base/spelling.h"
 
 static void *member(weft_job *job, const wf_option_row *row) {
@@ -257,4 +258,16 @@ weft_status wf_set_codec(weft_job *job, const wf_option_row *row, const char *va
                        spelling.best);
     wf_delivery_codecs(there, sizeof there);
     return refuse(row, value, there, err);
+}
+
+/* ---- Releasing ---- */
+
+void wf_release_text(weft_job *job, const wf_option_row *row) {
+    free(*(char **)member(job, row));
+}
+
+void wf_release_params(weft_job *job, const wf_option_row *row) {
+    (void)row;
+    for (size_t i = 0; i < job->param_count; i++) free(job->params[i]);
+    free(job->params);
 }

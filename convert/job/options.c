@@ -1,159 +1,179 @@
+/* The table of a job's options, and what is done with the option that a name asks for. */
+#include "convert/job/options.h"
+
 #include <string.h>
 
-#include "convert/job/jobfile.h"
 #include "convert/job/option_rows.h"
 #include "filters/base/spelling.h"
 
-/* ---- The table (cli.md) ---- */
+/* ---- The table ---- */
 
 static const char shape[] = "Raster and aperture", timing[] = "Time", input[] = "Input",
                   color[] = "Color", codes[] = "Codes", files[] = "Files",
                   running[] = "Running", scene[] = "Scene and samples";
 
-#define ROW(group, name, takes, preset, help, set_, ...)                                       \
-    { {name, takes, preset, help, group}, .set = wf_##set_, __VA_ARGS__ }
+/* Which commands take an option. */
+enum {
+    CONVERT = WF_TAKEN_BY_CONVERT,
+    RENDER = WF_TAKEN_BY_RENDER,
+    TRACE = WF_TAKEN_BY_TRACE,
+    COMPOSITE = WF_TAKEN_BY_COMPOSITE,
+    FILTERS = WF_TAKEN_BY_FILTERS,
+    VIDEO = CONVERT | RENDER,
+    SCENES = RENDER | TRACE,
+    JOBS = CONVERT | RENDER | TRACE
+};
+
+#define ROW(group, commands_, name, takes, preset, help, set_, ...)                            \
+    { {name, takes, preset, help, group}, .commands = commands_, .set = wf_##set_, __VA_ARGS__ }
 #define AT(member)               .offset = offsetof(weft_job, member)
+#define TEXT(member)             AT(member), .release = wf_release_text
 #define FROM(low_, high_, what_) .low = low_, .high = high_, .what = what_
 #define INITIAL                  .initial = true
 
 static const wf_option_row rows[] = {
-    ROW(shape, "raster", "NAME", "525i",
+    ROW(shape, JOBS | FILTERS, "raster", "NAME", "525i",
         "What to make: a name that 'weft rasters' lists, or WxH@RATE(i|p|psf).", set_raster,
         AT(raster), INITIAL),
-    ROW(shape, "aperture", "NAME", "shaped",
+    ROW(shape, JOBS, "aperture", "NAME", "shaped",
         "How a pixel looks at the picture: one of those that 'weft filters' lists, or "
         "design:KEY=VALUE,.. to have one made ('weft filters --help').",
         set_aperture, AT(aperture), INITIAL),
-    ROW(shape, "fit", "stretch|crop|pad", "stretch",
+    ROW(shape, CONVERT, "fit", "stretch|crop|pad", "stretch",
         "What to do with an input of another shape: stretch it, or scale it evenly and crop or "
         "pad.",
         set_choice, AT(fit), INITIAL),
-    ROW(shape, "input-par", "N:D", "from the files", "Pixel aspect ratio of the input.",
-        set_ratio, AT(input_par), FROM(0.01, 100, ", such as 10:11")),
-    ROW(shape, "background", "R,G,B", "0",
-        "Scene-linear color behind transparent and padded pictures; one number is a grey.",
+    ROW(shape, CONVERT, "input-par", "N:D", "from the files",
+        "Pixel aspect ratio of the input.", set_ratio, AT(input_par),
+        FROM(0.01, 100, ", such as 10:11")),
+    ROW(shape, CONVERT, "background", "R,G,B", "0",
+        "Scene-linear color behind transparent and padded pictures; one number is a gray.",
         set_background, AT(background), INITIAL),
 
-    ROW(timing, "temporal-width", "T", "the aperture's",
+    ROW(timing, JOBS | FILTERS, "temporal-width", "T", "the aperture's",
         "How long a field looks, in field periods: 0 is an instant, 1 a whole field.",
         set_width, AT(temporal_width), FROM(0, 64, " (field periods), such as 0.5 or 1/3")),
-    ROW(timing, "shutter-angle", "D", "the aperture's",
+    ROW(timing, JOBS, "shutter-angle", "D", "the aperture's",
         "The same in degrees: 360 are one field period.", set_angle, AT(temporal_width),
         FROM(0, 64 * 360, " (degrees), such as 180")),
-    ROW(timing, "shutter-position", "start|center|end", "start",
+    ROW(timing, JOBS, "shutter-position", "start|center|end", "start",
         "Whether a field's window starts, is centered or ends at its instant.", set_choice,
         AT(shutter_position), INITIAL),
-    ROW(timing, "scan-skew", "S", "0",
+    ROW(timing, JOBS, "scan-skew", "S", "0",
         "How much later the last line looks, in field periods: 1 is a tube camera.", set_ratio,
         AT(scan_skew), FROM(0, 1, ", such as 1 or 0.5"), INITIAL),
-    ROW(timing, "cadence", "none|2:3", "none",
+    ROW(timing, VIDEO, "cadence", "none|2:3", "none",
         "Shows film, 24 frames a second, in 60 fields: each film frame is seen once, and a "
         "period is a film frame's.",
         set_choice, AT(cadence), INITIAL),
-    ROW(timing, "subframe-rate", "R", "from the files",
+    ROW(timing, CONVERT, "subframe-rate", "R", "from the files",
         "Subframes a second, of those that are selected.", set_rate, AT(subframe_rate),
         FROM(0.001, 1e6, " (a second), such as 240 or 480000/1001")),
-    ROW(timing, "subframe-time", "start|center", "start",
+    ROW(timing, CONVERT, "subframe-time", "start|center", "start",
         "Whether subframe k stands for the time after k/R or about it.", set_switch,
         AT(subframe_time_center), INITIAL),
-    ROW(timing, "timecode", "HH:MM:SS:FF", "the input's, or 00:00:00:00",
+    ROW(timing, VIDEO | COMPOSITE, "timecode", "HH:MM:SS:FF", "the input's, or 00:00:00:00",
         "Timecode of frame 0; a semicolon before FF counts drop frame.", set_timecode,
-        AT(timecode)),
+        TEXT(timecode)),
 
-    ROW(input, "frames", "A-BxS", "all",
+    ROW(input, JOBS, "frames", "A-BxS", "all",
         "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",
-        set_frames, AT(frames)),
-    ROW(input, "layer", "NAME", "the unnamed one", "EXR layer to take: NAME.R, NAME.G, NAME.B.",
-        set_text, AT(layer)),
-    ROW(input, "part", "NAME", "the first picture",
-        "EXR part to take, by name or number from 0.", set_text, AT(part)),
-    ROW(input, "on-missing", "error|hold|black", "error",
+        set_frames, TEXT(frames)),
+    ROW(input, CONVERT, "layer", "NAME", "the unnamed one",
+        "EXR layer to take: NAME.R, NAME.G, NAME.B.", set_text, TEXT(layer)),
+    ROW(input, CONVERT, "part", "NAME", "the first picture",
+        "EXR part to take, by name or number from 0.", set_text, TEXT(part)),
+    ROW(input, CONVERT, "on-missing", "error|hold|black", "error",
         "What to do about subframes that are needed and absent.", set_choice, AT(on_missing),
         INITIAL),
-    ROW(input, "fix-nan", "box3|black|none|error", "box3",
-        "What NaN and Inf become: the mean of finite neighbours, black, themselves, an error.",
+    ROW(input, CONVERT, "fix-nan", "box3|black|none|error", "box3",
+        "What NaN and Inf become: the mean of finite neighbors, black, themselves, an error.",
         set_choice, AT(nan_fix), INITIAL),
 
-    ROW(input, "on-empty", "error|nearest", "error",
+    ROW(input, CONVERT, "on-empty", "error|nearest", "error",
         "What to do about pixels that no sample of a sample buffer reached.", set_choice,
         AT(on_empty), INITIAL),
 
-    ROW(scene, "samples", "N", "64",
+    ROW(scene, SCENES, "samples", "N", "64",
         "Samples a pixel, frame line and field, shared by all apertures that reach them.",
         set_whole, AT(samples), FROM(1, 65536, ", whole, such as 64"), INITIAL),
-    ROW(scene, "sampler", "jitter|sobol|grid", "sobol",
+    ROW(scene, SCENES, "sampler", "jitter|sobol|grid", "sobol",
         "Where they lie: in jittered strata, an Owen-scrambled Sobol set, or a grid.",
         set_choice, AT(sampler), INITIAL),
-    ROW(scene, "seed", "N", "0", "Another number gives other samples.", set_whole, AT(seed),
-        FROM(0, 9007199254740992, ", whole"), INITIAL),
-    ROW(scene, "error", "E", NULL,
+    ROW(scene, SCENES, "seed", "N", "0", "Another number gives other samples.", set_whole,
+        AT(seed), FROM(0, 9007199254740992, ", whole"), INITIAL),
+    ROW(scene, RENDER, "error", "E", NULL,
         "Instead of a number of samples: the RMS error to reach, in display-encoded units.",
         set_ratio, AT(error), FROM(0.0001, 1, ", such as 0.005")),
-    ROW(scene, "oversample", "SxLxT", NULL,
+    ROW(scene, TRACE, "oversample", "SxLxT", NULL,
         "Write subframes with S samples a pixel, L a line and T a field, not deep pictures.",
-        set_oversample, AT(oversample)),
-    ROW(scene, "set", "NAME=VALUE", NULL, "A value that the scene reads as param.NAME.",
-        set_param, .repeats = true),
-    ROW(scene, "scene-steps", "N", "200000000", "How many steps the scene's script may take.",
-        set_whole, AT(scene_steps), FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
-    ROW(scene, "scene-memory", "SIZE", "1G", "How much memory the scene may take.", set_size,
-        AT(scene_memory_bytes), INITIAL),
+        set_oversample, TEXT(oversample)),
+    ROW(scene, SCENES, "set", "NAME=VALUE", NULL, "A value that the scene reads as param.NAME.",
+        set_param, .release = wf_release_params, .repeats = true),
+    ROW(scene, SCENES, "scene-steps", "N", "200000000",
+        "How many steps the scene's script may take.", set_whole, AT(scene_steps),
+        FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
+    ROW(scene, SCENES, "scene-memory", "SIZE", "1G", "How much memory the scene may take.",
+        set_size, AT(scene_memory_bytes), INITIAL),
 
-    ROW(color, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.", set_text,
-        AT(ocio)),
-    ROW(color, "from", "SPACE", "scene-linear Rec. 709", "Color space of the input.", set_text,
-        AT(from)),
-    ROW(color, "to", "SPACE", "the raster's", "Color space of the output.", set_text, AT(to)),
-    ROW(color, "display", "NAME", NULL, "Display of the configuration, instead of --to.",
-        set_text, AT(display)),
-    ROW(color, "view", "NAME", NULL, "View of that display.", set_text, AT(view)),
-    ROW(color, "look", "NAME", NULL, "Look to apply on the way.", set_text, AT(look)),
+    ROW(color, VIDEO, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.",
+        set_text, TEXT(ocio)),
+    ROW(color, VIDEO, "from", "SPACE", "scene-linear Rec. 709", "Color space of the input.",
+        set_text, TEXT(from)),
+    ROW(color, VIDEO, "to", "SPACE", "the raster's", "Color space of the output.", set_text,
+        TEXT(to)),
+    ROW(color, VIDEO, "display", "NAME", NULL, "Display of the configuration, instead of --to.",
+        set_text, TEXT(display)),
+    ROW(color, VIDEO, "view", "NAME", NULL, "View of that display.", set_text, TEXT(view)),
+    ROW(color, VIDEO, "look", "NAME", NULL, "Look to apply on the way.", set_text, TEXT(look)),
 
-    ROW(codes, "bits", "8|10|12|16", "the output's", "Bits a sample.", set_bits, AT(bits)),
-    ROW(codes, "range", "narrow|full", "the output's",
+    ROW(codes, VIDEO | COMPOSITE, "bits", "8|10|12|16", "the output's", "Bits a sample.",
+        set_bits, AT(bits)),
+    ROW(codes, VIDEO | COMPOSITE, "range", "narrow|full", "the output's",
         "Code range: narrow for video, full for R'G'B' pictures.", set_choice, AT(range),
         .base = WF_RANGE_NARROW),
-    ROW(codes, "chroma", "bt601|121|box|444|luma-adjust", "bt601",
+    ROW(codes, VIDEO | COMPOSITE, "chroma", "bt601|121|box|444|luma-adjust", "bt601",
         "How chroma is brought to 4:2:2; 444 leaves it whole; luma-adjust is bt601 with luma "
         "that "
         "keeps the light of colored edges.",
         set_choice, AT(chroma), INITIAL),
-    ROW(codes, "dither", "none|tpdf", "none",
+    ROW(codes, VIDEO, "dither", "none|tpdf", "none",
         "Whether to round with noise, so that gradients have no steps; it does not flicker.",
         set_choice, AT(dither), INITIAL),
-    ROW(codes, "legalize", "none|clip|r103", "none",
+    ROW(codes, VIDEO | COMPOSITE, "legalize", "none|clip|r103", "none",
         "Whether to hold codes within the legal range, or colors within EBU R 103, at their "
         "hue "
         "and luma.",
         set_choice, AT(legalize), INITIAL),
 
-    ROW(files, "codec", "NAME", "the container's",
+    ROW(files, VIDEO, "codec", "NAME", "the container's",
         "What .mov, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, ffv1 and others; a "
         "wrong name lists them.",
-        set_codec, AT(codec)),
-    ROW(files, "audio", "none|silent:N", "none",
+        set_codec, TEXT(codec)),
+    ROW(files, VIDEO, "audio", "none|silent:N", "none",
         "Silent tracks of sound in .mov, .mxf and .mkv: 24 bits, 48 kHz.", set_audio, INITIAL),
-    ROW(files, "fields", "woven|separate", "woven",
+    ROW(files, VIDEO, "fields", "woven|separate", "woven",
         "Image sequences: both fields in one file, or each in a file of half the height, two "
         "numbers a frame in order of time.",
         set_switch, AT(separate_fields), INITIAL),
 
-    ROW(running, "chunk", "I/N", "1/1",
+    ROW(running, JOBS, "chunk", "I/N", "1/1",
         "Make only the I-th of N runs of frames; all of them joined are the whole.", set_chunk,
         AT(chunk), INITIAL),
-    ROW(running, "threads", "N", "all",
+    ROW(running, JOBS, "threads", "N", "all",
         "How many processors to use; the result is the same for any number.", set_threads,
         AT(threads), FROM(1, 1024, ", whole, or 'all'"), INITIAL),
-    ROW(running, "skip", "off|on", "on",
+    ROW(running, JOBS, "skip", "off|on", "on",
         "Whether to leave out work that equal data make needless.", set_switch, AT(skip),
         INITIAL),
-    ROW(running, "max-memory", "SIZE", "2G", "How much memory to use at most, such as 512M.",
-        set_size, AT(max_memory_bytes), INITIAL),
-    ROW(running, "dry-run", NULL, NULL, "Tell what would be done, and write nothing.", set_flag,
-        AT(dry_run)),
-    ROW(running, "overwrite", NULL, NULL, "Replace an output that exists.", set_flag,
-        AT(overwrite)),
-    ROW(running, "resume", NULL, NULL, "Make only what is not there yet.", set_flag,
+    ROW(running, JOBS | COMPOSITE, "max-memory", "SIZE", "2G",
+        "How much memory to use at most, such as 512M.", set_size, AT(max_memory_bytes),
+        INITIAL),
+    ROW(running, JOBS, "dry-run", NULL, NULL, "Tell what would be done, and write nothing.",
+        set_flag, AT(dry_run)),
+    ROW(running, JOBS | COMPOSITE, "overwrite", NULL, NULL, "Replace an output that exists.",
+        set_flag, AT(overwrite)),
+    ROW(running, JOBS, "resume", NULL, NULL, "Make only what is not there yet.", set_flag,
         AT(resume)),
 };
 
@@ -171,6 +191,10 @@ bool weft_option_at(size_t index, weft_option *out) {
 
 bool wf_option_repeats(size_t index) {
     return index < ROWS && rows[index].repeats;
+}
+
+unsigned wf_option_commands(size_t index) {
+    return index < ROWS ? rows[index].commands : 0;
 }
 
 void wf_job_clear_flag(weft_job *job, const char *name) {
@@ -204,4 +228,9 @@ weft_status wf_job_preset(weft_job *job, weft_error *err) {
     for (size_t i = 0; i < ROWS && !status; i++)
         if (rows[i].initial) status = rows[i].set(job, &rows[i], rows[i].shown.preset, err);
     return status;
+}
+
+void wf_job_release_options(weft_job *job) {
+    for (size_t i = 0; i < ROWS; i++)
+        if (rows[i].release) rows[i].release(job, &rows[i]);
 }
