@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "convert/check/measure_kinds.h"
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 
 /* ---- The figures ---- */
 

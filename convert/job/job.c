@@ -1,6 +1,8 @@
 /* A job: what it holds besides its options, and which options contradict each other. */
 #include "convert/job/job.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,6 +74,16 @@ void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user) {
 void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user) {
     job->warning = fn;
     job->warning_user = user;
+}
+
+void wf_job_warn(const weft_job *job, const char *format, ...) {
+    if (!job->warning) return;
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    job->warning(text, job->warning_user);
 }
 
 weft_status weft_job_set_command(weft_job *job, const char *name, weft_error *err) {

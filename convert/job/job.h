@@ -70,10 +70,8 @@ struct weft_job {
     weft_warning_fn *warning;
     void *warning_user;
     volatile sig_atomic_t cancelled;
-    _Atomic int64_t legal_pixels, legal_touched, legal_outside; /* of r103, in the last run */
-    _Atomic int64_t legal_worst; /* most pixels left outside in a frame */
-    char *report;                /* JSON of the last run */
-    char *plan;                  /* of a dry run, for people; NULL: there is none */
+    char *report; /* JSON of the last run */
+    char *plan;   /* of a dry run, for people; NULL: there is none */
 };
 
 /* Forgets the inputs there are. */

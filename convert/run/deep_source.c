@@ -150,6 +150,7 @@ static void tell(const weft_job *job, const samples *s, const wf_gathering *g,
     report->resample_s = counts.resample_s;
     report->color_s = counts.color_s;
     report->write_s = counts.write_s;
+    wf_gathering_tell_legal(g, &report->legal);
     if (!counts.pixels_filled) return;
     report->degraded = true;
     wf_job_warn(job, "%lld pixels that no sample reached are what is nearest to them",

@@ -2,12 +2,11 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
 
 /* The planes of a frame. */
 typedef struct room {
     void *plane[3];
-    _Atomic int64_t outside; /* pixels of it that r103 has left so */
+    _Atomic int64_t pixels, touched, outside; /* what r103 has done to its lines */
 } room;
 
 struct wf_frames {
@@ -19,13 +18,9 @@ struct wf_frames {
     size_t stride[3]; /* samples */
     int64_t done, total;
     double write_s, started_s;
+    wf_legal_counts legal; /* of the frames written */
+    int64_t worst_outside; /* pixels of a frame that r103 left so: the most of all frames */
 };
-
-double wf_now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* ---- Life ---- */
 
@@ -141,10 +136,10 @@ void wf_frames_line(const wf_frames *f, wf_finisher *finisher, int64_t field, in
         encoding.line = line_in_frame(f, field, line);
         encoding.legal = &legal;
         wf_encode_line(&encoding, rgb, finisher->code_scratch, code);
-        f->job->legal_pixels += legal.pixels;
-        f->job->legal_touched += legal.touched;
-        f->job->legal_outside += legal.outside;
-        room_of(f, field)->outside += legal.outside;
+        room *frame = room_of(f, field);
+        frame->pixels += legal.pixels;
+        frame->touched += legal.touched;
+        frame->outside += legal.outside;
     }
     finisher->color_s += wf_now_s() - start;
 }
@@ -162,10 +157,13 @@ static void tell_progress(const wf_frames *f) {
     f->job->progress(&progress, f->job->progress_user);
 }
 
-/* The room is the next frame's after this. */
-static void note_worst(const wf_frames *f, room *frame) {
+/* The planes are those of a later frame after this. */
+static void count_legal(wf_frames *f, room *frame) {
     int64_t outside = atomic_exchange(&frame->outside, 0);
-    if (outside > f->job->legal_worst) f->job->legal_worst = outside;
+    f->legal.pixels += atomic_exchange(&frame->pixels, 0);
+    f->legal.touched += atomic_exchange(&frame->touched, 0);
+    f->legal.outside += outside;
+    if (outside > f->worst_outside) f->worst_outside = outside;
 }
 
 weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
@@ -174,7 +172,7 @@ weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
         frame.plane[c] = f->rooms[index % f->count].plane[c];
         frame.stride[c] = f->stride[c];
     }
-    note_worst(f, &f->rooms[index % f->count]);
+    count_legal(f, &f->rooms[index % f->count]);
     double start = wf_now_s();
     weft_status status = f->setup->output.ops->write(f->sink, &frame, err);
     f->write_s += wf_now_s() - start;
@@ -189,6 +187,12 @@ weft_status wf_frames_commit(wf_frames *f, weft_error *err) {
     f->sink = NULL;
     f->write_s += wf_now_s() - start;
     return status;
+}
+
+void wf_frames_tell_legal(const wf_frames *f, wf_report_legal *legal) {
+    double pixels = (double)f->job->raster.width_px * f->job->raster.lines;
+    legal->counts = f->legal;
+    legal->worst_share = (double)f->worst_outside / pixels;
 }
 
 int64_t wf_frames_done(const wf_frames *f) {

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_RUN_FRAMES_H
 #define WF_CONVERT_RUN_FRAMES_H
 
+#include "convert/base/clock.h"
 #include "convert/run/setup.h"
 
 /* Frames while they are put together: lines of fields come in any order, go through colour into
@@ -35,14 +36,14 @@ weft_status wf_frames_open(wf_frames *frames, weft_error *err);
 weft_status wf_frames_write(wf_frames *frames, int64_t index, weft_error *err);
 weft_status wf_frames_commit(wf_frames *frames, weft_error *err);
 
+/* Adds to legal what r103 has done to the codes of the frames written. */
+void wf_frames_tell_legal(const wf_frames *frames, wf_report_legal *legal);
+
 int64_t wf_frames_done(const wf_frames *frames);
 double wf_frames_write_s(const wf_frames *frames);
 
 /* The next run of frames *first <= n < *end that are to be made; with --resume those whose
  * files are there are left out. False when nothing remains. (run.c) */
 bool wf_next_frames(const weft_job *job, const wf_setup *setup, int64_t *first, int64_t *end);
-
-/* Monotonic seconds. */
-double wf_now_s(void);
 
 #endif

@@ -430,6 +430,10 @@ weft_status wf_gathering_run(wf_gathering *g, weft_error *err) {
     return status ? status : wf_frames_commit(g->frames, err);
 }
 
+void wf_gathering_tell_legal(const wf_gathering *g, wf_report_legal *legal) {
+    wf_frames_tell_legal(g->frames, legal);
+}
+
 wf_gathering_counts wf_gathering_counted(const wf_gathering *g) {
     wf_gathering_counts sum = {.frames = wf_frames_done(g->frames),
                                .write_s = wf_frames_write_s(g->frames),

@@ -45,6 +45,8 @@ typedef struct wf_gathering_counts {
     int64_t tiles_reused, fields_reused; /* that were still and had been gathered before */
 } wf_gathering_counts;
 
+/* Adds to legal what r103 has done to the codes of the frames written. */
+void wf_gathering_tell_legal(const wf_gathering *gathering, wf_report_legal *legal);
 wf_gathering_counts wf_gathering_counted(const wf_gathering *gathering);
 int wf_gathering_threads(const weft_job *job);
 

@@ -186,6 +186,7 @@ static void tell(const weft_job *job, const renderer *r, const wf_gathering *g,
     report->resample_s = counts.resample_s;
     report->color_s = counts.color_s;
     report->write_s = counts.write_s;
+    wf_gathering_tell_legal(g, &report->legal);
     report->tiles_reused = counts.tiles_reused;
     report->fields_reused = counts.fields_reused;
     wf_error_sum all = {0, 0};

@@ -1,4 +1,3 @@
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,16 +6,6 @@
 #include "convert/run/overwrite_check.h"
 #include "convert/run/pipeline.h"
 #include "convert/run/render.h"
-
-void wf_job_warn(const weft_job *job, const char *format, ...) {
-    if (!job->warning) return;
-    char text[1024];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    job->warning(text, job->warning_user);
-}
 
 /* ---- Missing subframes ---- */
 
@@ -121,6 +110,7 @@ static void tell(const weft_job *job, const wf_setup *s, const wf_pipeline *p,
     report->resample_s = times.resample_s;
     report->color_s = times.finisher.color_s;
     report->write_s = wf_frames_write_s(p->frames);
+    wf_frames_tell_legal(p->frames, &report->legal);
 }
 
 static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
@@ -174,8 +164,8 @@ static run_fn *const runs[] = {
 
 #define R103_SHARE 0.01 /* EBU R 103: what may be outside */
 
-static void tell_outside(const weft_job *job) {
-    double share = (double)job->legal_outside / (double)(job->legal_pixels + 1);
+static void tell_outside(const weft_job *job, const wf_legal_counts *counts) {
+    double share = (double)counts->outside / (double)(counts->pixels + 1);
     if (share <= R103_SHARE) return;
     wf_job_warn(job,
                 "--legalize r103: %.2g %% of the picture is still outside, and 1 %% may be",
@@ -189,10 +179,9 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     err->text[0] = '\0';
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
-    job->legal_pixels = job->legal_touched = job->legal_outside = job->legal_worst = 0;
     if (!status) wf_job_settle(job);
     if (!status) status = runs[job->command](job, &report, err);
-    if (!status) tell_outside(job);
+    if (!status) tell_outside(job, &report.legal.counts);
     report.wall_s = wf_now_s() - start;
     if (job->dry_run) report.frames = report.fields = 0;
     report.error = status ? err->text : NULL;

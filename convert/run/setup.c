@@ -334,14 +334,10 @@ wf_gather_desc wf_setup_gather(const weft_job *job) {
 wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
     if (!s->output.kind || s->output.kind->layout == WF_LINEAR) return (wf_report_legal){0};
     static const char *const legalize[] = {"none", "clip", "r103"};
-    return (wf_report_legal){
-        .legalize = legalize[job->legalize],
-        .dither = job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
-        .range = s->output_options.full_range ? "full" : "narrow",
-        .bits = s->output_options.bits,
-        .counts = {job->legal_pixels, job->legal_touched, job->legal_outside},
-        .worst_share =
-            (double)job->legal_worst / ((double)job->raster.width_px * job->raster.lines)};
+    return (wf_report_legal){.legalize = legalize[job->legalize],
+                             .dither = job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
+                             .range = s->output_options.full_range ? "full" : "narrow",
+                             .bits = s->output_options.bits};
 }
 
 void wf_setup_free(wf_setup *s) {

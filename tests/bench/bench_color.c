@@ -10,7 +10,7 @@
 #include "color/space/ocio/ocio.h"
 #include "color/space/space.h"
 #include "convert/base/module.h"
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 
 enum { WIDTH = 1920, LINES = 540, RUNS = 9 };
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 
 typedef struct buffers {
     struct libdeflate_decompressor *inflate;

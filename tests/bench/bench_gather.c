@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 #include "filters/gather/samples.h"
 
 #define PER_PIXEL 64

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 #include "filters/base/half.h"
 #include "filters/resample/resampler.h"
 #include "tests/unit/support/reference.h"

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 #include "filters/resample/resampler.h"
 
 enum { CELLS_X = 1440, CELLS_Y = 972, SUBFRAMES = 32, FIELDS = 4 };

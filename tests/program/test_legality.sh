@@ -100,6 +100,22 @@ for kind in $kinds; do
 done
 check "8 bits with noise" within mended --bits 8 --dither tpdf
 check "4:4:4 of full range" within bright --chroma 444 --bits 12 --range full
+# Scenes and sample buffers are counted as subframes are.
+cat >scene.lua <<'END'
+duration(.08)
+camera{eye={0, 0, 10}, look_at={0, 0, 0}}
+background{10, .05, .02}
+END
+# sampled COMMAND INPUT: two frames of it, held to r103.
+sampled()
+{
+    exits 0 weft "$1" "$2" --raster 180x122@25i,tff,709 --from ACEScg --legalize r103 --overwrite -q \
+        -o o.y4m --report report.json && outside o.y4m .002
+}
+check "a scene" sampled render scene.lua
+check "samples are stored" exits 0 weft trace scene.lua --raster 180x122@25i,tff,709 -q -o 'deep.####.exr'
+check "sample buffers" sampled convert 'deep.####.exr'
+
 check "adjusted with noise" within bright --chroma luma-adjust --dither tpdf
 check "without" make o.y4m bright 0
 check "is outside without" eval "exits 0 weft measure o.y4m --json && value \"d['legal']['r103_share'] > .3\""

@@ -14,7 +14,7 @@
 #include "color/codes/encode.h"
 #include "color/line/line.h"
 #include "color/space/space.h"
-#include "convert/run/frames.h"
+#include "convert/base/clock.h"
 #include "filters/base/half.h"
 #include "filters/resample/resampler.h"
 
