@@ -27,9 +27,16 @@ typedef struct curve {
     double flicker[POINTS], sharpness[POINTS];
 } curve;
 
+/* A named aperture, or several that lie in the same place. */
+typedef struct mark {
+    char name[96];
+    double flicker, sharpness;
+    bool peer; /* a filter of another program */
+} mark;
+
 typedef struct frontier {
     curve curve[CURVES];
-    wf_xy_mark mark[MOST_MARKS];
+    mark mark[MOST_MARKS];
     size_t marks;
 } frontier;
 
@@ -57,18 +64,19 @@ static double fir_response(const void *user, double fx, double fy) {
 
 /* Adds a dot for an aperture, or its name to the dot of one that lies in the same place. */
 static void add_mark(frontier *f, const char *name, double flicker, double sharpness,
-                     bool other) {
+                     bool peer) {
     for (size_t m = 0; m < f->marks; m++) {
-        wf_xy_mark *mark = &f->mark[m];
-        if (fabs(mark->x - flicker) > 1e-6 || fabs(mark->y - sharpness) > 1e-6) continue;
-        size_t used = strlen(mark->name);
-        snprintf(mark->name + used, sizeof mark->name - used, ", %s", name);
+        mark *known = &f->mark[m];
+        if (fabs(known->flicker - flicker) > 1e-6 || fabs(known->sharpness - sharpness) > 1e-6)
+            continue;
+        size_t used = strlen(known->name);
+        snprintf(known->name + used, sizeof known->name - used, ", %s", name);
         return;
     }
     if (f->marks == MOST_MARKS) return;
-    wf_xy_mark *mark = &f->mark[f->marks++];
-    *mark = (wf_xy_mark){.x = flicker, .y = sharpness, .other = other};
-    snprintf(mark->name, sizeof mark->name, "%s", name);
+    mark *added = &f->mark[f->marks++];
+    *added = (mark){.flicker = flicker, .sharpness = sharpness, .peer = peer};
+    snprintf(added->name, sizeof added->name, "%s", name);
 }
 
 static void add_marks(frontier *f) {
@@ -141,33 +149,72 @@ static weft_status find(frontier *f, weft_error *err) {
 
 /* ---- What it looks like ---- */
 
-static weft_status draw(const frontier *f, const char *path, weft_error *err) {
-    wf_xy_curve curves[CURVES];
+/* Where an axis begins and ends: on its grid, a third of a step beyond what is drawn. */
+static void widen(wf_plot_axis *axis, double value) {
+    axis->low = fmin(axis->low, floor(value / axis->step - 0.3) * axis->step);
+    axis->high = fmax(axis->high, ceil(value / axis->step + 0.3) * axis->step);
+}
+
+static void fit(const frontier *f, wf_plot_axis *flicker, wf_plot_axis *sharpness) {
+    flicker->low = sharpness->low = INFINITY;
+    flicker->high = sharpness->high = -INFINITY;
+    for (size_t i = 0; i < CURVES; i++)
+        for (size_t k = 0; k < f->curve[i].points; k++) {
+            widen(flicker, f->curve[i].flicker[k]);
+            widen(sharpness, f->curve[i].sharpness[k]);
+        }
+    for (size_t m = 0; m < f->marks; m++) {
+        widen(flicker, f->mark[m].flicker);
+        widen(sharpness, f->mark[m].sharpness);
+    }
+}
+
+static size_t fill_items(const frontier *f, wf_plot_item *item) {
+    size_t count = 0;
     for (size_t i = 0; i < CURVES; i++) {
         const curve *c = &f->curve[i];
-        curves[i] =
-            (wf_xy_curve){c->name, c->flicker, c->sharpness, c->points, c->row->width > 1};
+        item[count++] = (wf_plot_item){.kind = WF_ITEM_LINE,
+                                       .series = (int)i + 1,
+                                       .name = c->name,
+                                       .x = c->flicker,
+                                       .y = c->sharpness,
+                                       .points = c->points,
+                                       .dashed = c->row->width > 1};
     }
+    for (size_t m = 0; m < f->marks; m++) {
+        const mark *k = &f->mark[m];
+        item[count++] = (wf_plot_item){.kind = WF_ITEM_LABEL,
+                                       .text = k->name,
+                                       .x = &k->flicker,
+                                       .y = &k->sharpness,
+                                       .points = 1,
+                                       .marked = k->peer};
+    }
+    return count;
+}
+
+static weft_status draw(const frontier *f, const char *path, weft_error *err) {
     char subtitle[128];
+    wf_plot_item items[CURVES + MOST_MARKS];
+    wf_plot_panel panel = {
+        .y = {.label = "Vertical response at 0.25 cycles/line", .step = 0.1, .digits = 1},
+        .item = items,
+        .items = fill_items(f, items)};
+    wf_plot plot = {
+        .look = WF_LOOK_WIDE,
+        .title = "Flicker and sharpness",
+        .subtitle = subtitle,
+        .x = {.label = "Interline flicker, RMS (white = 1)", .step = 0.02, .digits = 2},
+        .panel = &panel,
+        .panels = 1};
+    fit(f, &plot.x, &panel.y);
     snprintf(subtitle, sizeof subtitle,
              "Still zone plate on 525i; designs of %g lines to each side, aliases at most %g",
              rows[0].support, WF_DESIGN_ALIAS);
-    const wf_plot_xy plot = {
-        .title = "Flicker and sharpness",
-        .subtitle = subtitle,
-        .x_label = "Interline flicker, RMS (white = 1)",
-        .y_label = "Vertical response at 0.25 cycles/line",
-        .x_step = 0.02,
-        .y_step = 0.1,
-        .x_format = "%.2f",
-        .y_format = "%.1f",
-        .curve_count = CURVES,
-        .mark_count = f->marks,
-        .curves = curves,
-        .marks = f->mark,
-    };
-    return wf_cmd_draw("wf_plot_xy_png", &plot, path, err);
+    return wf_cmd_draw("wf_plot_draw", &plot, path, err);
 }
+
+/* ---- Numbers ---- */
 
 static void add_numbers(wf_json *json, const char *key, const double *value, size_t count) {
     wf_json_open(json, key, '[');
@@ -195,8 +242,8 @@ static weft_status print(const frontier *f, weft_error *err) {
     for (size_t m = 0; m < f->marks; m++) {
         wf_json_open(&json, NULL, '{');
         wf_json_text(&json, "name", f->mark[m].name);
-        wf_json_real(&json, "flicker", f->mark[m].x);
-        wf_json_real(&json, "sharpness", f->mark[m].y);
+        wf_json_real(&json, "flicker", f->mark[m].flicker);
+        wf_json_real(&json, "sharpness", f->mark[m].sharpness);
         wf_json_close(&json);
     }
     return wf_cmd_print_json(wf_json_finish(&json), err);

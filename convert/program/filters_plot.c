@@ -13,9 +13,9 @@
 #define MOST_CURVES 16
 
 typedef struct curves {
-    wf_plot_curve curve[MOST_CURVES];
     char name[MOST_CURVES][96];
-    double value[MOST_CURVES][POINTS];
+    bool dashed[MOST_CURVES];
+    double frequency[POINTS], value[MOST_CURVES][POINTS], decibels[MOST_CURVES][POINTS];
     size_t count;
 } curves;
 
@@ -29,11 +29,9 @@ static bool same_curve(const double *a, const double *b) {
     return true;
 }
 
-static wf_plot_curve *keep_curve(curves *c, const char *name) {
+static void keep_curve(curves *c, const char *name, bool dashed) {
     snprintf(c->name[c->count], sizeof c->name[0], "%s", name);
-    c->curve[c->count] =
-        (wf_plot_curve){.name = c->name[c->count], .value = c->value[c->count]};
-    return &c->curve[c->count++];
+    c->dashed[c->count++] = dashed;
 }
 
 /* Adds the curve of an aperture, or its name to an equal curve: apertures that differ across
@@ -50,7 +48,7 @@ static void add_aperture(const wf_filters_query *q, const wf_aperture *a, const 
             snprintf(c->name[other] + used, sizeof c->name[0] - used, ", %s", name);
             return;
         }
-    keep_curve(c, name);
+    keep_curve(c, name, false);
 }
 
 static void add_weights(const wf_filters_query *q, const wf_aperture *a, curves *c) {
@@ -62,7 +60,7 @@ static void add_weights(const wf_filters_query *q, const wf_aperture *a, curves 
     if (flicker > 0) snprintf(left, sizeof left, "%.2f dB", wf_filters_db(flicker, 0));
     snprintf(name, sizeof name, "%d to %d lines, the worst: %s at %g", q->input_lines,
              q->raster.lines, left, FLICKER);
-    keep_curve(c, name)->dashed = true;
+    keep_curve(c, name, true);
 }
 
 static void collect(const wf_filters_query *q, curves *c) {
@@ -79,23 +77,85 @@ static void collect(const wf_filters_query *q, curves *c) {
     }
 }
 
+/* ---- The picture ---- */
+
+static void tell_points(curves *c) {
+    for (int i = 0; i < POINTS; i++) c->frequency[i] = frequency(i);
+    for (size_t k = 0; k < c->count; k++)
+        for (int i = 0; i < POINTS; i++)
+            c->decibels[k][i] = 20 * log10(fmax(fabs(c->value[k][i]), 1e-12));
+}
+
+/* Widens an axis by whole steps to what the curves reach, but not beyond 80 to either side. */
+static void widen(wf_plot_axis *axis, const curves *c, double (*value)[POINTS]) {
+    for (size_t k = 0; k < c->count; k++)
+        for (int i = 0; i < POINTS; i++) {
+            double y = value[k][i];
+            while (axis->low > -80 && y < axis->low - 0.01 * axis->step)
+                axis->low -= axis->step;
+            while (axis->high < 80 && y > axis->high + 0.01 * axis->step)
+                axis->high += axis->step;
+        }
+}
+
+/* A panel: where it flickers, the curves, and (dots) where those of the weights meet that.
+ * Returns how many items there are, at most 1 + 2 MOST_CURVES. */
+static size_t fill_panel(const curves *c, const double (*value)[POINTS], bool named, bool dots,
+                         wf_plot_item *item) {
+    static const double flicker = FLICKER;
+    const int at = (int)(FLICKER * (POINTS - 1));
+    size_t count = 0;
+    item[count++] = (wf_plot_item){
+        .kind = WF_ITEM_RULE,
+        .x = &flicker,
+        .points = 1,
+        .text = named ? "0.5: alternate lines, flicker at the frame rate" : NULL};
+    for (size_t k = 0; k < c->count; k++)
+        item[count++] = (wf_plot_item){.kind = WF_ITEM_LINE,
+                                       .series = (int)k % WF_PLOT_SERIES + 1,
+                                       .name = named ? c->name[k] : NULL,
+                                       .x = c->frequency,
+                                       .y = value[k],
+                                       .points = POINTS,
+                                       .dashed = c->dashed[k]};
+    for (size_t k = 0; k < c->count && dots; k++)
+        if (c->dashed[k])
+            item[count++] = (wf_plot_item){.kind = WF_ITEM_POINTS,
+                                           .series = (int)k % WF_PLOT_SERIES + 1,
+                                           .x = &c->frequency[at],
+                                           .y = &value[k][at],
+                                           .points = 1};
+    return count;
+}
+
 weft_status wf_filters_plot(const wf_filters_query *query, const char *path, weft_error *err) {
     curves c = {.count = 0};
-    char title[128] = "Apertures", subtitle[160];
+    wf_plot_item values[2 * MOST_CURVES + 1], decibels[2 * MOST_CURVES + 1];
+    char title[128] = "Apertures";
     collect(query, &c);
+    tell_points(&c);
     if (query->name) snprintf(title, sizeof title, "Aperture %s", query->name);
-    snprintf(subtitle, sizeof subtitle,
-             "Vertical frequency response, at 0 cycles/pixel and 0 cycles/field");
+    wf_plot_panel panels[] = {{.heading = "Response",
+                               .y = {.low = -0.2, .high = 1, .step = 0.2, .digits = 1},
+                               .item = values,
+                               .items = fill_panel(&c, c.value, true, false, values)},
+                              {.heading = "Response, dB",
+                               .y = {.low = -80, .high = 0, .step = 10, .digits = 0},
+                               .item = decibels,
+                               .items = fill_panel(&c, c.decibels, false, true, decibels)}};
+    widen(&panels[0].y, &c, c.value);
+    widen(&panels[1].y, &c, c.decibels);
     const wf_plot plot = {
+        .look = WF_LOOK_PANELS,
         .title = title,
-        .subtitle = subtitle,
-        .x_label = "Vertical frequency, cycles per frame line",
-        .x_end = 1,
-        .x_mark = FLICKER,
-        .mark_label = "0.5: alternate lines, flicker at the frame rate",
-        .points = POINTS,
-        .curve_count = c.count,
-        .curves = c.curve,
+        .subtitle = "Vertical frequency response, at 0 cycles/pixel and 0 cycles/field",
+        .x = {.label = "Vertical frequency, cycles per frame line",
+              .low = 0,
+              .high = 1,
+              .step = 0.1,
+              .digits = 1},
+        .panel = panels,
+        .panels = 2,
     };
-    return wf_cmd_draw("wf_plot_png", &plot, path, err);
+    return wf_cmd_draw("wf_plot_draw", &plot, path, err);
 }

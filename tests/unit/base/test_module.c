@@ -37,7 +37,7 @@ static void *find_plot(void *arg) {
     (void)arg;
     void *symbol = NULL;
     weft_error err;
-    return wf_module_symbol("plot", "wf_plot_png", &symbol, &err) ? NULL : symbol;
+    return wf_module_symbol("plot", "wf_plot_draw", &symbol, &err) ? NULL : symbol;
 }
 
 static void modules_of_the_build(void **state) {
@@ -50,7 +50,7 @@ static void modules_of_the_build(void **state) {
     }
     void *symbol;
     weft_error err = {""};
-    if (wf_module_symbol("plot", "wf_plot_png", &symbol, &err)) fail_msg("%s", err.text);
+    if (wf_module_symbol("plot", "wf_plot_draw", &symbol, &err)) fail_msg("%s", err.text);
     assert_int_equal(wf_module_symbol("plot", "wf_nonesuch", &symbol, &err), WEFT_FAILED);
     assert_non_null(strstr(err.text, "another version"));
     assert_non_null(strstr(err.text, "wf_nonesuch"));
