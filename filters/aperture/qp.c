@@ -1,3 +1,4 @@
+/* A small convex quadratic program by an interior point method. */
 #include "filters/aperture/qp.h"
 
 #include <math.h>
@@ -6,17 +7,17 @@
 
 #define MOST_STEPS 60
 #define LIMIT      1e-9
-#define GAP        1e-7  /* rounding ends it at 1e-8 to 1e-12 .. */
-#define SLOPE      1e-6  /* .. by what it leaves of slopes */
-#define FAIR_GAP   1e-5  /* will do where rounding allows no more */
-#define TO_BORDER  0.995 /* of the way to where a slack or multiplier would vanish */
+#define GAP        1e-7  /* rounding lets it become 1e-8 to 1e-12, as it leaves slopes */
+#define SLOPE      1e-6  /* what slopes may be off by */
+#define FAIR_GAP   1e-5  /* is enough where rounding allows no less */
+#define TO_BORDER  0.995 /* of the way to where a slack or multiplier would vanish is gone */
 
 bool wf_qp_alloc(wf_qp *qp, wf_qp_answer *answer, int n, int m) {
     size_t width = (size_t)n, height = (size_t)m;
-    double *room =
-        calloc(width * width + 3 * width + width * height + 2 * height, sizeof *room);
-    if (!room) return false;
-    *qp = (wf_qp){.n = n, .m = m, .q = room};
+    double *memory =
+        calloc(width * width + 3 * width + width * height + 2 * height, sizeof *memory);
+    if (!memory) return false;
+    *qp = (wf_qp){.n = n, .m = m, .q = memory};
     qp->c = qp->q + width * width;
     qp->a = qp->c + width;
     answer->x = qp->a + width;
@@ -48,10 +49,10 @@ typedef struct work {
 
 static bool make_work(work *w, int n, int m) {
     size_t width = (size_t)n, height = (size_t)m;
-    double *room = calloc(width * width + 4 * width + 5 * height, sizeof *room);
-    if (!room) return false;
-    *w = (work){.k = room};
-    w->dual = room + width * width;
+    double *memory = calloc(width * width + 4 * width + 5 * height, sizeof *memory);
+    if (!memory) return false;
+    *w = (work){.k = memory};
+    w->dual = memory + width * width;
     w->right = w->dual + n;
     w->dx = w->right + n;
     w->along = w->dx + n;
@@ -137,7 +138,7 @@ static double direct(const wf_qp *qp, const wf_qp_answer *at, work *w) {
 }
 
 /* How far values may go before one of them vanishes, 1 at most. */
-static double room(int m, const double *value, const double *change) {
+static double way_to_go(int m, const double *value, const double *change) {
     double far = 1;
     for (int r = 0; r < m; r++)
         if (change[r] < 0) far = fmin(far, -value[r] / change[r]);
@@ -149,13 +150,13 @@ static void step(const wf_qp *qp, wf_qp_answer *at, work *w) {
     double mean = dot(m, w->s, at->z) / m, reached = 0;
     for (int r = 0; r < m; r++) w->center[r] = w->s[r] * at->z[r];
     direct(qp, at, w);
-    double primal = room(m, w->s, w->ds), dual = room(m, at->z, w->dz);
+    double primal = way_to_go(m, w->s, w->ds), dual = way_to_go(m, at->z, w->dz);
     for (int r = 0; r < m; r++)
         reached += (w->s[r] + primal * w->ds[r]) * (at->z[r] + dual * w->dz[r]) / m;
     double centering = pow(reached / mean, 3);
     for (int r = 0; r < m; r++) w->center[r] += w->ds[r] * w->dz[r] - centering * mean;
     double dy = direct(qp, at, w);
-    double far = TO_BORDER * fmin(room(m, w->s, w->ds), room(m, at->z, w->dz));
+    double far = TO_BORDER * fmin(way_to_go(m, w->s, w->ds), way_to_go(m, at->z, w->dz));
     for (int i = 0; i < qp->n; i++) at->x[i] += far * w->dx[i];
     for (int r = 0; r < m; r++) w->s[r] += far * w->ds[r];
     for (int r = 0; r < m; r++) at->z[r] += far * w->dz[r];

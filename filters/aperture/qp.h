@@ -30,8 +30,8 @@ typedef struct wf_qp_answer {
 
 typedef enum wf_qp_end { WF_QP_SOLVED, WF_QP_STUCK, WF_QP_NO_MEMORY } wf_qp_end;
 
-/* Room for a program of n unknowns and at most m limits, zeroed, c, a and the answer's arrays
- * with it; false if there is none. wf_qp_release releases both. */
+/* Memory for a program of n unknowns and at most m limits, zeroed: its arrays and the answer's.
+ * False if there is none. wf_qp_release releases both. */
 bool wf_qp_alloc(wf_qp *qp, wf_qp_answer *answer, int n, int m);
 void wf_qp_release(wf_qp *qp);
 

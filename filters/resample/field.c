@@ -1,11 +1,13 @@
+/* Fields in flight: subframes times weights into sums, band by band. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "filters/resample/plan.h"
+#include "filters/resample/resampler_inside.h"
 
-/* Sums of a field of either parity, so that one can become the other. */
+/* The sums of the parity that has more, so that a field of one can be renewed as one of the
+ * other. */
 static size_t most_sums(const wf_resampler *rs) {
-    int top = rs->plan[0].sum_count, bottom = rs->plan[1].sum_count;
+    int top = rs->weights[0].sum_count, bottom = rs->weights[1].sum_count;
     return (size_t)(top > bottom ? top : bottom);
 }
 
@@ -17,9 +19,9 @@ size_t wf_resampler_field_bytes(const wf_resampler *rs, bool carried) {
 
 /* ---- Scratch ---- */
 
-/* Sums of the band that has most. */
+/* The sums of the band that has most. */
 static size_t slot_sum_count(const wf_resampler *rs) {
-    int top = rs->plan[0].most_sums, bottom = rs->plan[1].most_sums;
+    int top = rs->weights[0].most_sums, bottom = rs->weights[1].most_sums;
     return (size_t)(top > bottom ? top : bottom);
 }
 
@@ -86,31 +88,31 @@ static wf_moment moment_of(const wf_field *f, int line, int64_t k) {
 }
 
 static int moment_rows(const wf_field *f) {
-    return f->rs->desc.timing.skew.num ? f->plan->lines : 1;
+    return f->rs->desc.timing.skew.num ? f->weights->lines : 1;
 }
 
 static void fill_moments(wf_field *f) {
     for (int l = 0; l < moment_rows(f); l++)
         for (int64_t n = 0; n < f->window.count; n++)
-            f->moments[l * f->window.count + n] =
-                moment_of(f, f->plan->first_line + l * f->plan->line_step, f->window.first + n);
+            f->moments[l * f->window.count + n] = moment_of(
+                f, f->weights->first_line + l * f->weights->line_step, f->window.first + n);
 }
 
 bool wf_field_renew(wf_field *f, int64_t index) {
     const wf_resampler *rs = f->rs;
     f->index = index;
-    f->plan = &rs->plan[wf_raster_parity(rs->desc.raster, index)];
+    f->weights = &rs->weights[wf_raster_parity(rs->desc.raster, index)];
     f->window = wf_resampler_window(rs, index);
     f->carried = f->last = f->complete = false;
     free(f->moments);
     free(f->bands_left);
     free(f->overscan);
     f->overscan = NULL;
-    f->bands_left = malloc((size_t)f->plan->lines * sizeof *f->bands_left);
+    f->bands_left = malloc((size_t)f->weights->lines * sizeof *f->bands_left);
     f->moments = malloc((size_t)moment_rows(f) * (size_t)f->window.count * sizeof *f->moments);
     if (!f->moments || !f->bands_left) return false;
-    for (int l = 0; l < f->plan->lines; l++)
-        atomic_init(&f->bands_left[l], f->plan->line_bands[l]);
+    for (int l = 0; l < f->weights->lines; l++)
+        atomic_init(&f->bands_left[l], f->weights->line_bands[l]);
     fill_moments(f);
     memset(f->inside, 0, 2 * most_sums(rs) * sizeof *f->inside);
     memset(f->touched, 0, most_sums(rs) * sizeof *f->touched);
@@ -148,7 +150,7 @@ int64_t wf_field_index(const wf_field *f) {
 }
 
 bool wf_field_begin_batch(wf_field *f, bool last, bool overscan) {
-    size_t sums = (size_t)f->plan->sum_count;
+    size_t sums = (size_t)f->weights->sum_count;
     f->last = last;
     if (overscan && !f->overscan)
         f->overscan = calloc(sums * wf_columns_of(f->rs), sizeof *f->overscan);
@@ -178,7 +180,7 @@ static double *slot_sum(wf_scratch *s, int slot, int sum) {
 }
 
 void wf_band_open(const wf_field *f, int band, wf_scratch *s, int slot) {
-    const wf_band *b = &f->plan->bands[band];
+    const wf_band *b = &f->weights->bands[band];
     size_t samples = wf_sum_samples(f->rs);
     bool *live = s->live + (size_t)slot * s->slot_sums;
     for (int sum = b->sums.first; sum < b->sums.end; sum++, live++) {
@@ -189,7 +191,7 @@ void wf_band_open(const wf_field *f, int band, wf_scratch *s, int slot) {
     }
 }
 
-/* The weight of a row at subframe k. */
+/* The weight of a row at subframe k: the integral of h over its cell, but for what u adds. */
 static double weight_at(const wf_field *f, const wf_term *term, int64_t k) {
     if (!inside_window(f->window, k)) return 0;
     const wf_aperture_kind *kind = f->rs->desc.aperture.kind;
@@ -310,9 +312,9 @@ static void add_term(wf_field *f, const wf_term *term, const wf_band_input *inpu
 }
 
 void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
-    const wf_band *b = &f->plan->bands[band];
+    const wf_band *b = &f->weights->bands[band];
     for (int t = b->terms.first; t < b->terms.end; t++) {
-        const wf_term *term = &f->plan->terms[t];
+        const wf_term *term = &f->weights->terms[t];
         double weight = weight_of_all(f, term, input);
         if (weight != 0) add_term(f, term, input, weight, term->sum - b->sums.first, s, slot);
     }
@@ -327,7 +329,7 @@ static void finish_sum(wf_field *f, int sum, const double *from) {
 }
 
 void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
-    const wf_band *b = &f->plan->bands[band];
+    const wf_band *b = &f->weights->bands[band];
     size_t samples = wf_sum_samples(f->rs);
     const bool *live = s->live + (size_t)slot * s->slot_sums;
     for (int sum = b->sums.first; sum < b->sums.end; sum++) {
@@ -342,7 +344,7 @@ void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
 }
 
 wf_span wf_band_lines(const wf_field *f, int band) {
-    return f->last ? f->plan->bands[band].lines : (wf_span){0, 0};
+    return f->last ? f->weights->bands[band].lines : (wf_span){0, 0};
 }
 
 bool wf_field_line_ready(wf_field *f, int line) {

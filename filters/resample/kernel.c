@@ -1,15 +1,17 @@
+/* Horizontal weights: the aperture's integrals over the cells of one input row. */
 #include <stdlib.h>
 
-#include "filters/resample/plan.h"
+#include "filters/resample/resampler_inside.h"
 
+/* Kernels that would take more than this together are computed each time they are used. */
 #define MOST_KEPT_BYTES ((size_t)64 << 20)
 
 bool wf_kernel_alloc(const wf_resampler *rs, wf_kernel *kernel) {
     size_t width = (size_t)rs->x.pixels, weights = (size_t)rs->phases * (size_t)rs->taps;
-    double *room = malloc((weights + 2 * width) * sizeof *room);
-    if (!room) return false;
-    kernel->weight = room;
-    kernel->inside = room + weights;
+    double *memory = malloc((weights + 2 * width) * sizeof *memory);
+    if (!memory) return false;
+    kernel->weight = memory;
+    kernel->inside = memory + weights;
     kernel->exists = kernel->inside + width;
     return true;
 }
@@ -78,12 +80,12 @@ int wf_kernel_for(wf_resampler *rs, double v0, double v1) {
         v0 + v1 < 0 ? (wf_kernel){.v0 = -v1, .v1 = -v0} : (wf_kernel){.v0 = v0, .v1 = v1};
     for (int i = rs->kernel_count; i-- > 0;)
         if (rs->kernels[i].v0 == wanted.v0 && rs->kernels[i].v1 == wanted.v1) return i;
-    if (rs->kernel_count == rs->kernel_room) {
-        int room = rs->kernel_room ? 2 * rs->kernel_room : 16;
-        wf_kernel *grown = realloc(rs->kernels, (size_t)room * sizeof *grown);
+    if (rs->kernel_count == rs->kernel_capacity) {
+        int capacity = rs->kernel_capacity ? 2 * rs->kernel_capacity : 16;
+        wf_kernel *grown = realloc(rs->kernels, (size_t)capacity * sizeof *grown);
         if (!grown) return -1;
         rs->kernels = grown;
-        rs->kernel_room = room;
+        rs->kernel_capacity = capacity;
     }
     rs->kernels[rs->kernel_count] = wanted;
     return rs->kernel_count++;

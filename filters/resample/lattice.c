@@ -1,15 +1,7 @@
+/* One axis of the lattice of input cells, in whole ticks. */
 #include "filters/resample/lattice.h"
 
 #include <math.h>
-
-static int64_t gcd(int64_t a, int64_t b) {
-    while (b) {
-        int64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
 
 static int64_t floor_div(int64_t a, int64_t b) {
     int64_t quotient = a / b;
@@ -64,6 +56,6 @@ bool wf_axis_inside(const wf_axis *axis, int a) {
 }
 
 int wf_axis_phases(const wf_axis *axis) {
-    int64_t phases = axis->cell / gcd(axis->cell, axis->unit);
+    int64_t phases = wf_ratio(axis->cell, axis->unit).num;
     return phases < axis->pixels ? (int)phases : axis->pixels;
 }

@@ -1,3 +1,4 @@
+/* Where the cells of an input picture lie on the raster, exactly. */
 #ifndef WF_FILTERS_RESAMPLE_LATTICE_H
 #define WF_FILTERS_RESAMPLE_LATTICE_H
 
@@ -17,7 +18,7 @@ typedef struct wf_fitting {
  * ticks of 1/unit pixel (or frame line), exactly. Cells 0 <= a < cells are the display
  * window's. */
 typedef struct wf_axis {
-    int64_t unit; /* even, so that pixel centres are whole ticks */
+    int64_t unit; /* even, so that pixel centers are whole ticks */
     int64_t cell, origin;
     int cells, pixels;
     bool padded;
@@ -28,15 +29,16 @@ typedef struct wf_span {
     int first, end;
 } wf_span;
 
-/* The display window is centred on the raster. False if the ratio is too fine for 64-bit ticks.
+/* The display window is centered on the raster. False if the ratio is too fine for 64-bit
+ * ticks.
  */
 bool wf_axis_init(wf_axis *axis, const wf_fitting *fitting);
 
 /* Cells, of the display window or not, that an aperture reaching `reach` pixels (a multiple of
- * 1/2) each way meets about the centre of pixel i. */
+ * 1/2) each way meets about the center of pixel i. */
 wf_span wf_axis_reach(const wf_axis *axis, double reach, int i);
 
-/* Where cell a starts, in pixels from the centre of pixel i. */
+/* Where cell a starts, in pixels from the center of pixel i. */
 double wf_axis_edge(const wf_axis *axis, int a, int i);
 
 /* The same, drawn in to the picture's edge where the axis is padded and a lies in the padding:

@@ -1,9 +1,10 @@
+/* Lines of a complete field: sums through horizontal kernels, over what exists. */
 #include <string.h>
 
-#include "filters/resample/plan.h"
+#include "filters/resample/resampler_inside.h"
 
 static const float *done_row(const wf_field *f, int tap, int channel) {
-    return f->done + (size_t)f->plan->taps[tap].sum * wf_done_samples(f->rs) +
+    return f->done + (size_t)f->weights->taps[tap].sum * wf_done_samples(f->rs) +
            (size_t)channel * wf_row_samples(f->rs);
 }
 
@@ -14,7 +15,7 @@ static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
     const float *first = NULL;
     int found = 0;
     for (int t = taps.first; t < taps.end; t++) {
-        if (!f->touched[f->plan->taps[t].sum]) continue;
+        if (!f->touched[f->weights->taps[t].sum]) continue;
         const float *sum = done_row(f, t, channel);
         if (++found == 1)
             first = sum;
@@ -58,8 +59,8 @@ static void filter_pixels(const wf_resampler *rs, const double *weight, const do
     }
 }
 
-/* What the samples of subframes with overscan weigh, pixel by pixel: there the cells that exist
- * differ from subframe to subframe. */
+/* Adds the weight of the samples of subframes with overscan, pixel by pixel: which cells exist
+ * there differs from subframe to subframe. */
 static void add_overscan(const wf_field *f, wf_span taps, const wf_kernel *kernel,
                          wf_scratch *s) {
     const wf_resampler *rs = f->rs;
@@ -69,7 +70,8 @@ static void add_overscan(const wf_field *f, wf_span taps, const wf_kernel *kerne
         wf_span span = wf_axis_reach(&rs->x, reach, i);
         double total = 0;
         for (int t = taps.first; t < taps.end; t++) {
-            const double *row = f->overscan + (size_t)f->plan->taps[t].sum * wf_columns_of(rs);
+            const double *row =
+                f->overscan + (size_t)f->weights->taps[t].sum * wf_columns_of(rs);
             for (int a = span.first; a < span.end; a++)
                 total += weight[a - span.first] * row[a - rs->columns.first];
         }
@@ -82,8 +84,8 @@ static void add_totals(const wf_field *f, wf_span taps, const wf_kernel *kernel,
                        wf_scratch *s) {
     double inside = 0, exists = 0;
     for (int t = taps.first; t < taps.end; t++) {
-        inside += f->inside[f->plan->taps[t].sum];
-        exists += f->exists[f->plan->taps[t].sum];
+        inside += f->inside[f->weights->taps[t].sum];
+        exists += f->exists[f->weights->taps[t].sum];
     }
     for (int i = 0; i < f->rs->x.pixels; i++) {
         s->inside[i] += inside * kernel->inside[i];
@@ -95,7 +97,8 @@ static void add_totals(const wf_field *f, wf_span taps, const wf_kernel *kernel,
 /* Sums that share a kernel go through it together. */
 static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
     const wf_resampler *rs = f->rs;
-    const wf_kernel *kernel = wf_kernel_ready(rs, f->plan->taps[taps.first].kernel, &s->kernel);
+    const wf_kernel *kernel =
+        wf_kernel_ready(rs, f->weights->taps[taps.first].kernel, &s->kernel);
     size_t samples = (size_t)rs->phases * wf_run_length(rs);
     for (int c = 0; c < rs->desc.channels; c++) {
         double *out = s->picture + (size_t)c * samples;
@@ -108,8 +111,8 @@ static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
     add_totals(f, taps, kernel, s);
 }
 
-/* Shares of the background: what is neither covered by the input nor opaque. exists holds
- * reciprocals. */
+/* Lays the light over the background, whose share is what the input neither covers nor makes
+ * opaque. exists holds reciprocals here. */
 static void add_background(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
     size_t run = wf_run_length(rs), samples = (size_t)rs->phases * run;
     for (int i = 0; i < rs->x.pixels; i++) {
@@ -145,11 +148,11 @@ void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[
     size_t samples = (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs);
     memset(s->picture, 0, samples * sizeof *s->picture);
     memset(s->inside, 0, 2 * (size_t)rs->x.pixels * sizeof *s->inside);
-    wf_span all = f->plan->line_taps[line], group = {all.first, all.first};
+    wf_span all = f->weights->line_taps[line], group = {all.first, all.first};
     while (group.end < all.end) {
         group.first = group.end;
-        int kernel = f->plan->taps[group.first].kernel;
-        while (group.end < all.end && f->plan->taps[group.end].kernel == kernel) group.end++;
+        int kernel = f->weights->taps[group.first].kernel;
+        while (group.end < all.end && f->weights->taps[group.end].kernel == kernel) group.end++;
         add_group(f, group, s);
     }
     normalize(rs, s, rgb);

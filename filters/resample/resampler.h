@@ -1,3 +1,4 @@
+/* Fields from subframes: what everybody else sees of the resampler. */
 #ifndef WF_FILTERS_RESAMPLE_RESAMPLER_H
 #define WF_FILTERS_RESAMPLE_RESAMPLER_H
 
@@ -6,11 +7,11 @@
 #include "filters/raster/timing.h"
 #include "filters/resample/lattice.h"
 
-/* Subframes to fields (resampling.md, Weights), in the order that suits chunked files: bands of
- * input rows from top to bottom, and within a band the subframes in time. A band is summed in
- * double by one thread; different bands of a field may be summed at once. When all bands have
- * seen all the subframes of a field's window, its lines are finished, in any order, by any
- * threads. The bits of the result depend on neither threads nor batches. */
+/* Subframes to fields (filters/README.md, Weights), in the order that suits chunked files:
+ * bands of input rows from top to bottom, and within a band the subframes in time. A band is
+ * summed in double by one thread; different bands of a field may be summed at once. When all
+ * bands have seen all the subframes of a field's window, its lines are finished, in any order,
+ * by any threads. The bits of the result depend on neither threads nor batches. */
 
 typedef struct wf_resample_desc {
     const wf_raster *raster;
@@ -38,9 +39,6 @@ wf_window wf_resampler_window(const wf_resampler *resampler, int64_t field);
 int wf_resampler_bands(const wf_resampler *resampler);
 wf_span wf_resampler_band_rows(const wf_resampler *resampler, int band);
 
-/* Lattice columns that some pixel reaches. */
-wf_span wf_resampler_columns(const wf_resampler *resampler);
-
 /* What one field in flight needs at most, carried between batches or not. */
 size_t wf_resampler_field_bytes(const wf_resampler *resampler, bool carried);
 
@@ -59,7 +57,7 @@ void wf_field_free(wf_field *field);
  * when memory is out; the field can then only be freed. */
 bool wf_field_renew(wf_field *field, int64_t index);
 
-/* Rows and columns of the lattice, half-open. */
+/* Columns x0 .. x1 and rows y0 .. y1 of the lattice, half-open. */
 typedef struct wf_cells {
     int x0, y0, x1, y1;
 } wf_cells;
@@ -81,7 +79,7 @@ bool wf_resampler_overscan(const wf_resampler *resampler, const wf_cells *data);
 
 int64_t wf_field_index(const wf_field *field);
 
-/* Before a batch, once, by one thread: makes room for what the batch leaves. last: the batch
+/* Before a batch, once, by one thread: allocates what the batch leaves. last: the batch
  * holds the rest of the field's window; overscan: some subframe of it has overscan. False: no
  * memory. */
 bool wf_field_begin_batch(wf_field *field, bool last, bool overscan);
@@ -97,7 +95,7 @@ void wf_band_close(wf_field *field, int band, wf_scratch *scratch, int slot);
 /* Where the batch completes the field: the lines that the band just closed reaches (none
  * otherwise). Each of them is asked about once for each of its bands; when the last of these is
  * closed, wf_field_line_ready is true, and the asking thread may finish the line while its sums
- * are near. */
+ * are in the cache. */
 wf_span wf_band_lines(const wf_field *field, int band);
 bool wf_field_line_ready(wf_field *field, int line);
 

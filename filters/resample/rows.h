@@ -1,3 +1,4 @@
+/* The inner loops of the resampler. */
 #ifndef WF_FILTERS_RESAMPLE_ROWS_H
 #define WF_FILTERS_RESAMPLE_ROWS_H
 
@@ -6,9 +7,8 @@
 
 #include "filters/base/isa.h"
 
-/* The inner loops of the resampler, one table for each instruction set they are compiled for.
- * Every table gives the same bits: products and sums are rounded separately in double, in the
- * same order, whatever the vector width. */
+/* One table for each level of the processor. Every table gives the same bits: products and sums
+ * are rounded separately in double, in the same order, whatever the vector width. */
 typedef struct wf_row_ops {
     /* sum[i] += weight * pixel[i] */
     void (*add_half)(double *sum, const uint16_t *pixel, double weight, size_t count);

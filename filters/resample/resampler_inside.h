@@ -1,0 +1,156 @@
+/* What the files of the resampler share. */
+#ifndef WF_FILTERS_RESAMPLE_RESAMPLER_INSIDE_H
+#define WF_FILTERS_RESAMPLE_RESAMPLER_INSIDE_H
+
+#include <stdatomic.h>
+
+#include "filters/resample/resampler.h"
+#include "filters/resample/rows.h"
+
+/* A field is added up in sums: rows of input columns, in double. There is one sum for each
+ * input row where the aperture couples u and v but not v and t (`shaped` without scan skew),
+ * else one for each output line that a band of input rows reaches. Terms say which rows add to
+ * which sums; taps say which sums, each through a horizontal kernel, make which line. */
+
+/* Row `row` adds to sum `sum` with `weight` times the weight of its instant. */
+typedef struct wf_term {
+    int row, line, sum;
+    bool inside;           /* the row is one of the display window's */
+    double weight, v0, v1; /* v0 .. v1: the row's cell, in lines from the line's center */
+} wf_term;
+
+/* One band of input rows: half-open ranges of its rows, of the terms and sums that are its own,
+ * and of the field's lines that reach some row of it. */
+typedef struct wf_band {
+    wf_span rows, terms, sums, lines;
+} wf_band;
+
+/* A line takes one sum through one horizontal kernel. */
+typedef struct wf_tap {
+    int line, sum, kernel;
+} wf_tap;
+
+/* Horizontal weights of the row of cells v0 .. v1 (both 0 where the aperture separates). Pixels
+ * of one phase share `taps` weights, from the first cell that they reach; what they add up to
+ * is known for each pixel, since at the picture's edges cells are missing. */
+typedef struct wf_kernel {
+    double v0, v1;
+    double *weight; /* [phases][taps] */
+    double *inside; /* [width]: sum over the cells of the display window */
+    double *exists; /* [width]: and over the padding */
+} wf_kernel;
+
+/* The weights of the fields of one parity. */
+typedef struct wf_weights {
+    int lines, first_line, line_step; /* of a field, in frame lines */
+    wf_band *bands;                   /* [band_count] */
+    wf_term *terms;                   /* [term_count], by band */
+    wf_tap *taps;                     /* [tap_count], by line and then by kernel */
+    wf_span *line_taps;               /* [lines] */
+    int *line_bands;                  /* [lines]: how many bands a line reaches */
+    int term_count, tap_count, sum_count;
+    int most_sums; /* of any one band */
+} wf_weights;
+
+struct wf_resampler {
+    wf_resample_desc desc;
+    wf_timing timing;
+    wf_axis x, y;
+    wf_span columns, rows; /* of the lattice, that some pixel reaches */
+    int band_count;
+    wf_weights weights[2]; /* by parity; progressive rasters have the first alone */
+    bool sums_by_row;      /* one sum for each input row */
+    int phases, taps;      /* pixels that lie differently in their cells; weights of each */
+    /* Polyphase layout of a finished sum: lane z holds the cells z, z + lanes, .. so that
+     * pixels of one phase read neighbors. There is one lane where phases are too many for that
+     * to pay. */
+    int lanes, lane_length;
+    bool polyphase;
+    wf_kernel *kernels;
+    int kernel_count, kernel_capacity;
+    const wf_row_ops *ops;
+};
+
+/* Builds rs->weights[parity], and asks for the kernels that it uses. False: no memory. */
+bool wf_weights_build(wf_resampler *rs, int parity);
+void wf_weights_release(wf_weights *weights);
+
+/* The first row of the band that holds a row. */
+int wf_band_floor(const wf_resampler *rs, int row);
+
+/* The index of the kernel of the row of cells v0 .. v1, found or added (rows that mirror each
+ * other share one); -1: no memory. */
+int wf_kernel_for(wf_resampler *rs, double v0, double v1);
+
+/* Computes the kernels that are kept, once both parities have asked for all of theirs. False:
+ * no memory. */
+bool wf_kernels_keep(wf_resampler *rs);
+
+/* The kernel's arrays, filled: those that are kept, or computed into scratch where keeping all
+ * of them would take too much memory. */
+const wf_kernel *wf_kernel_ready(const wf_resampler *rs, int kernel, wf_kernel *scratch);
+bool wf_kernel_alloc(const wf_resampler *rs, wf_kernel *kernel);
+void wf_kernel_release(wf_kernel *kernel);
+
+/* The part of a subframe's cell that lies in a line's window, in field periods from the
+ * window's center, and what it weighs. */
+typedef struct wf_moment {
+    double q0, q1, weight;
+} wf_moment;
+
+struct wf_field {
+    const wf_resampler *rs;
+    const wf_weights *weights;
+    int64_t index;
+    wf_window window;
+    wf_moment *moments; /* [lines, or 1 without scan skew][window.count] */
+    float *done;        /* [sums][channels][lanes][lane_length], once all has been added */
+    double *carry;      /* [sums][channels][columns], while more is to come */
+    bool carried;       /* carry holds something */
+    bool last;          /* the batch in hand completes the window */
+    bool complete;
+    bool *touched;          /* [sums]: some sample was added; done and carry hold no others */
+    atomic_int *bands_left; /* [lines]: how many of its bands are not closed yet */
+    double *inside;         /* [sums]: weight of the rows of the display window */
+    double *exists;         /* [sums]: and of the padding's */
+    double *overscan; /* [sums][columns]: weight of samples of subframes with overscan; or NULL
+                       */
+};
+
+/* A slot is one of the fields that a thread sums side by side. */
+struct wf_scratch {
+    const wf_resampler *rs;
+    size_t slot_sums;    /* most_sums of both parities */
+    size_t slot_samples; /* of the sums of one slot */
+    double *sums;        /* [slots][slot_sums][channels][columns] */
+    bool *live;          /* [slots][slot_sums]: the sum has begun; others hold nothing yet */
+    double *row;         /* [lanes][lane_length] */
+    double *picture;     /* [channels][phases][run] */
+    double *inside, *exists; /* [width]: weights of the line in hand */
+    wf_kernel kernel;
+};
+
+static inline size_t wf_columns_of(const wf_resampler *rs) {
+    return (size_t)(rs->columns.end - rs->columns.first);
+}
+
+/* Samples of one sum while it is added up; of one channel of it once it is finished; of all its
+ * channels then. */
+static inline size_t wf_sum_samples(const wf_resampler *rs) {
+    return (size_t)rs->desc.channels * wf_columns_of(rs);
+}
+
+static inline size_t wf_row_samples(const wf_resampler *rs) {
+    return (size_t)rs->lanes * (size_t)rs->lane_length;
+}
+
+static inline size_t wf_done_samples(const wf_resampler *rs) {
+    return (size_t)rs->desc.channels * wf_row_samples(rs);
+}
+
+/* The pixels of the phase that has most. */
+static inline size_t wf_run_length(const wf_resampler *rs) {
+    return (size_t)((rs->x.pixels + rs->phases - 1) / rs->phases);
+}
+
+#endif
