@@ -1,0 +1,242 @@
+/* Rows of samples, apertures and irregular samples, for test_isa.c. */
+#include <math.h>
+
+#include "filters/aperture/profile.h"
+#include "filters/base/half.h"
+#include "filters/gather/samples_inside.h"
+#include "filters/resample/rows.h"
+#include "tests/unit/support/levels.h"
+
+/* ---- Rows ---- */
+
+static void add_half(level_run *r) {
+    double *sum = level_doubles(r, r->count), weight = level_uniform(r, -1, 1);
+    uint16_t *pixel = level_halves(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->add_half(sum, pixel, weight, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        sum[i] += weight * (double)wf_half_value(pixel[i]);
+    level_keep_doubles(r, sum, r->count);
+}
+
+/* Every half there is. */
+static void add_all_halves(level_run *r) {
+    double *sum = level_buffer(r, 8192 * sizeof *sum), weight = level_uniform(r, 0, 1);
+    uint16_t *half = level_buffer(r, 8192 * sizeof *half), first = level_draw(r) % 8 * 8192;
+    for (int i = 0; i < 8192; i++) sum[i] = 0, half[i] = (uint16_t)(first + i);
+    if (!r->plain) wf_row_ops_at(r->level)->add_half(sum, half, weight, 8192);
+    for (int i = 0; r->plain && i < 8192; i++)
+        sum[i] += weight * (double)wf_half_value(half[i]);
+    level_keep_doubles(r, sum, 8192);
+}
+
+static void add_float(level_run *r) {
+    double *sum = level_doubles(r, r->count), weight = level_uniform(r, -1, 1);
+    float *pixel = level_floats(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->add_float(sum, pixel, weight, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] += weight * (double)pixel[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
+static void set_rows(level_run *r) {
+    double *sum = level_doubles(r, r->count);
+    float *a = level_floats(r, r->count), *b = level_floats(r, r->count);
+    bool two = level_draw(r) % 2;
+    if (!r->plain) wf_row_ops_at(r->level)->set_rows(sum, a, two ? b : NULL, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        sum[i] = two ? (double)a[i] + (double)b[i] : (double)a[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
+static void add_row(level_run *r) {
+    double *sum = level_doubles(r, r->count);
+    float *pixel = level_floats(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->add_row(sum, pixel, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] += (double)pixel[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
+static void add_tap(level_run *r) {
+    double *sum = level_doubles(r, r->count), *row = level_doubles(r, r->count);
+    double weight = level_uniform(r, -1, 1);
+    if (!r->plain) wf_row_ops_at(r->level)->add_tap(sum, row, weight, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] += weight * row[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
+static void split(level_run *r) {
+    size_t lanes = 1 + level_draw(r) % 5, length = (r->count + lanes - 1) / lanes;
+    length += level_draw(r) % 3;
+    double *row = level_doubles(r, r->count);
+    float *lane = level_buffer(r, lanes * length * sizeof *lane);
+    if (!r->plain) wf_row_ops_at(r->level)->split(lane, row, lanes, length, r->count);
+    for (size_t n = 0; r->plain && n < lanes * length; n++) {
+        size_t at = n % length * lanes + n / length;
+        lane[n] = at < r->count ? (float)row[at] : 0;
+    }
+    level_keep_floats(r, lane, lanes * length);
+}
+
+static const level_row rows[] = {
+    {"rows.add_half", add_half, true, 0},   {"rows.add_half of all", add_all_halves, true, 0},
+    {"rows.add_float", add_float, true, 0}, {"rows.set_rows", set_rows, true, 0},
+    {"rows.add_row", add_row, true, 0},     {"rows.add_tap", add_tap, true, 0},
+    {"rows.split", split, true, 0},
+};
+
+/* ---- Apertures ---- */
+
+static wf_aperture aperture_of(const char *name) {
+    wf_aperture a = {0};
+    char why[256];
+    wf_aperture_parse(name, &a, why, sizeof why);
+    return a;
+}
+
+static double notch_at(double v) {
+    v = fabs(v);
+    return v < 1 ? 0.5 - v * v / 4 : v < 2 ? v * v / 4 - v + 1 : 0;
+}
+
+static double mitchell_at(const wf_aperture *a, double v) {
+    double b = a->parameter[0], c = a->parameter[1], s = fabs(v), s2 = s * s, s3 = s2 * s;
+    if (s < 1) return ((12 - 9 * b - 6 * c) * s3 + (-18 + 12 * b + 6 * c) * s2 + 6 - 2 * b) / 6;
+    if (!(s < 2)) return 0;
+    return ((-b - 6 * c) * s3 + (6 * b + 30 * c) * s2 + (-12 * b - 48 * c) * s + 8 * b +
+            24 * c) /
+           6;
+}
+
+/* The table of filters/README.md, Apertures. */
+static double height_at(const wf_aperture *a, double tau, double v, double q) {
+    switch (a->kind->profile) {
+    case WF_PROFILE_LINE:
+        return fabs(v) <= 0.5;
+    case WF_PROFILE_BOX:
+        return fabs(v) <= 1;
+    case WF_PROFILE_NOTCH:
+        return notch_at(v);
+    case WF_PROFILE_SHAPED:
+        return notch_at(v) > 0;
+    case WF_PROFILE_DIAMOND:
+        return fabs(v) + fabs(2 * q / tau) <= 1;
+    case WF_PROFILE_MITCHELL:
+        return mitchell_at(a, v);
+    default:
+        return fabs(v) < a->reach_v ? a->stairs.height[(int)(fabs(v) * 8)] : 0;
+    }
+}
+
+static void profile(level_run *r, const char *name) {
+    wf_aperture a = aperture_of(name);
+    double tau = level_uniform(r, 0.1, 3), *v = level_doubles(r, r->count);
+    double *q = level_doubles(r, r->count), *height = level_doubles(r, r->count);
+    double *half_u = level_doubles(r, r->count);
+    wf_profile which = a.kind->profile;
+    int count = (int)r->count;
+    if (!r->plain) wf_profile_ops_at(r->level)->of[which](&a, tau, count, v, q, height, half_u);
+    for (int i = 0; r->plain && i < count; i++) {
+        height[i] = height_at(&a, tau, v[i], q[i]);
+        half_u[i] = which == WF_PROFILE_SHAPED ? 2 * notch_at(v[i]) : a.half_u;
+    }
+    level_keep_doubles(r, height, r->count);
+    level_keep_doubles(r, half_u, r->count);
+}
+
+#define PROFILE(name, words)                                                                   \
+    static void name(level_run *r) {                                                           \
+        profile(r, words);                                                                     \
+    }
+PROFILE(line, "line")
+PROFILE(box, "box")
+PROFILE(notch, "notch")
+PROFILE(shaped, "shaped")
+PROFILE(diamond, "diamond")
+PROFILE(mitchell, "mitchell:1/3,1/3")
+PROFILE(crisp, "crisp")
+
+static const level_row profiles[] = {
+    {"profile.line", line, true, 0},       {"profile.box", box, true, 0},
+    {"profile.notch", notch, true, 1e-15}, {"profile.shaped", shaped, true, 1e-15},
+    {"profile.diamond", diamond, true, 0}, {"profile.mitchell", mitchell, true, 1e-14},
+    {"profile.design", crisp, true, 0},
+};
+
+/* ---- Gathering ---- */
+
+/* Which aperture, window and skew; several samples a cell, as renderers send them. */
+static wf_gather_desc drawn_desc(level_run *r, wf_raster *raster) {
+    static const char *const names[] = {
+        "line",    "box",  "ccd",   "notch",   "shaped",
+        "diamond", "calm", "crisp", "rotated", "mitchell:3/2,-1/4"};
+    char why[256];
+    wf_raster_parse("24x16@30i,tff,par=1:1", raster, why, sizeof why);
+    wf_gather_desc d = {.raster = raster, .aperture = aperture_of(names[level_draw(r) % 10])};
+    d.width = wf_ratio(level_draw(r) % 5, 2);
+    d.position = (wf_position)(level_draw(r) % 3);
+    d.skew = wf_ratio(level_draw(r) % 2, 2);
+    return d;
+}
+
+static float *cells(level_run *r, int most) {
+    float *at = level_floats(r, r->count);
+    for (size_t i = 0; i < r->count; i++) {
+        bool odd = r->wild && !(fabsf(at[i]) <= 2);
+        int cell = (int)((i / 13 * 2654435761u >> 7) % (unsigned)most);
+        if (!odd) at[i] = (float)(level_uniform(r, -1, 1) + cell);
+    }
+    return at;
+}
+
+static void add_plainly(const wf_gather *g, const wf_samples *s, double apart) {
+    const wf_gather_desc *d = &g->desc;
+    bool instant = !(g->tau > 0);
+    double tau = instant ? 1 : g->tau,
+           middle = g->tau * (0.5 - wf_position_anchor(d->position));
+    for (int line = 0; line < 8; line++)
+        for (size_t k = 0; k < s->count; k++) {
+            int row = g->parity + line * 2;
+            double v = (double)s->y[k] - (row + 0.5);
+            double q = (double)s->t[k] - apart - middle - wf_ratio_value(d->skew) * row / 16;
+            bool seen = fabs(q) <= (instant ? 0x1p-12 : tau / 2);
+            for (int i = 0; seen && i < 24; i++) {
+                double u = (double)s->x[k] - (i + 0.5);
+                double h = wf_aperture_value(&d->aperture, tau, u, v, instant ? 0 : q);
+                if (instant && d->aperture.kind->couples_vq) h *= 1 - fabs(v);
+                wf_pixel_sum *sum = wf_gather_sums(g, line) + i;
+                h *= (double)s->weight[k];
+                sum->r += h * (double)s->rgb[0][k];
+                sum->g += h * (double)s->rgb[1][k];
+                sum->b += h * (double)s->rgb[2][k];
+                sum->weight += h;
+            }
+        }
+}
+
+static void gather(level_run *r) {
+    wf_raster raster;
+    wf_gather_desc d = drawn_desc(r, &raster);
+    wf_gather *g = wf_gather_new(&d, 2, 0, 8);
+    if (!g) return;
+    float *x = cells(r, 24), *y = cells(r, 16), *t = level_floats(r, r->count);
+    float *red = level_floats(r, r->count), *green = level_floats(r, r->count);
+    float *blue = level_floats(r, r->count), *weight = level_floats(r, r->count);
+    if (wf_ratio_value(d.width) <= 0)
+        for (size_t i = 0; i < r->count; i++) t[i] *= 0x1p-13f;
+    const wf_samples s = {r->count, x, y, t, 2, {red, green, blue}, weight};
+    if (r->plain)
+        add_plainly(g, &s, 0);
+    else
+        wf_gather_ops_at(r->level)->add(g, &s, 0);
+    for (int line = 0; line < 8; line++)
+        level_keep_doubles(r, &wf_gather_sums(g, line)->r, (size_t)4 * 24);
+    wf_gather_free(g);
+}
+
+static const level_row gathering[] = {{"gather.add", gather, true, 1e-13}};
+
+const level_table level_filters[] = {
+    LEVEL_TABLE("filters/resample/rows_isa.c", wf_row_ops, rows),
+    LEVEL_TABLE("filters/aperture/profile_isa.c", wf_profile_ops, profiles),
+    LEVEL_TABLE("filters/gather/samples_isa.c", wf_gather_ops, gathering),
+    {.file = NULL},
+};
