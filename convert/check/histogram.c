@@ -1,41 +1,42 @@
+/* RMS and quantiles of very many values in little memory. */
 #include "convert/check/histogram.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sign 0, 8 bits of exponent and 11 of mantissa. */
+/* A float shifted right by this much leaves 8 bits of exponent and 11 of mantissa. */
 #define BIN_SHIFT 12
 #define BINS      ((size_t)1 << (31 - BIN_SHIFT))
 
-bool wf_histogram_init(wf_histogram *spread, float limit) {
-    *spread = (wf_histogram){.limit = limit};
-    spread->bin = calloc(BINS, sizeof *spread->bin);
-    return spread->bin;
+bool wf_histogram_init(wf_histogram *h, float limit) {
+    *h = (wf_histogram){.limit = limit};
+    h->bin = calloc(BINS, sizeof *h->bin);
+    return h->bin;
 }
 
-void wf_histogram_free(wf_histogram *spread) {
-    free(spread->bin);
-    spread->bin = NULL;
+void wf_histogram_free(wf_histogram *h) {
+    free(h->bin);
+    h->bin = NULL;
 }
 
-void wf_histogram_add(wf_histogram *spread, float value) {
+void wf_histogram_add(wf_histogram *h, float value) {
     uint32_t bits;
     if (!(value >= 0)) return;
     value += 0.0f; /* -0 is 0 */
     memcpy(&bits, &value, sizeof bits);
-    spread->bin[(bits & 0x7fffffff) >> BIN_SHIFT]++;
-    spread->squares += (double)value * (double)value;
-    spread->over += value > spread->limit;
-    spread->count++;
+    h->bin[(bits & 0x7fffffff) >> BIN_SHIFT]++;
+    h->squares += (double)value * (double)value;
+    h->over += value > h->limit;
+    h->count++;
 }
 
-double wf_histogram_rms(const wf_histogram *spread) {
-    return spread->count ? sqrt(spread->squares / (double)spread->count) : NAN;
+double wf_histogram_rms(const wf_histogram *h) {
+    return h->count ? sqrt(h->squares / (double)h->count) : NAN;
 }
 
-double wf_histogram_share(const wf_histogram *spread) {
-    return spread->count ? (double)spread->over / (double)spread->count : NAN;
+double wf_histogram_share(const wf_histogram *h) {
+    return h->count ? (double)h->over / (double)h->count : NAN;
 }
 
 /* The middle of a bin. */
@@ -46,12 +47,12 @@ static double bin_value(size_t bin) {
     return bin ? (double)value : 0;
 }
 
-double wf_histogram_quantile(const wf_histogram *spread, double share) {
-    double wanted = share * (double)spread->count, below = 0;
-    if (!spread->count) return NAN;
+double wf_histogram_quantile(const wf_histogram *h, double share) {
+    double wanted = share * (double)h->count, below = 0;
+    if (!h->count) return NAN;
     for (size_t bin = 0; bin < BINS; bin++) {
-        below += (double)spread->bin[bin];
-        if (below >= wanted && spread->bin[bin]) return bin_value(bin);
+        below += (double)h->bin[bin];
+        if (below >= wanted && h->bin[bin]) return bin_value(bin);
     }
     return NAN;
 }

@@ -5,23 +5,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* How many values that are not negative are spread: their RMS, and quantiles to 0.05 % of the
- * value, from a histogram whose bins are as fine as the upper bits of a float. Start with
- * wf_histogram_init. */
+/* How values that are not negative are distributed: their RMS exactly, and quantiles to 0.025 %
+ * of the value. A bin holds the floats that share their exponent and the upper 11 bits of their
+ * mantissa. Start with wf_histogram_init. */
 typedef struct wf_histogram {
     uint64_t *bin;
-    uint64_t count, over; /* over: values above limit */
-    double squares;
+    uint64_t count, over; /* values in all, and of those the ones above limit */
+    double squares;       /* sum of the values' squares */
     float limit;
 } wf_histogram;
 
-bool wf_histogram_init(wf_histogram *spread, float limit); /* false: no memory */
-void wf_histogram_free(wf_histogram *spread);
-void wf_histogram_add(wf_histogram *spread, float value); /* NaN is not counted */
+bool wf_histogram_init(wf_histogram *h, float limit); /* false: no memory */
+void wf_histogram_free(wf_histogram *h);
 
-/* NaN of no values. share: of the values above limit. */
-double wf_histogram_rms(const wf_histogram *spread);
-double wf_histogram_share(const wf_histogram *spread);
-double wf_histogram_quantile(const wf_histogram *spread, double share);
+/* Negative values and NaN are not counted. */
+void wf_histogram_add(wf_histogram *h, float value);
+
+/* NaN where there are no values. share is that of the values above limit; the quantile of a
+ * share, 0 to 1, is the value that so many do not exceed. */
+double wf_histogram_rms(const wf_histogram *h);
+double wf_histogram_share(const wf_histogram *h);
+double wf_histogram_quantile(const wf_histogram *h, double share);
 
 #endif

@@ -1,3 +1,4 @@
+/* One pass over a video, frame by frame, through every measurement. */
 #include "convert/check/measure.h"
 
 #include <inttypes.h>
@@ -5,59 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/check/measure_kinds.h"
 #include "convert/base/clock.h"
-
-/* ---- The figures ---- */
-
-#define FIGURE(member) offsetof(wf_figures, member)
-
-static const wf_figure_kind figures_table[] = {
-    {"flicker", "rms", "interline flicker: RMS", FIGURE(flicker_rms), false},
-    {"flicker", "p999", "its 99.9th percentile", FIGURE(flicker_p999), false},
-    {"flicker", "share", "share of the picture over 2 %", FIGURE(flicker_share), false},
-    {"sharpness", NULL, "vertical response of the chart's", FIGURE(sharpness), true},
-    {"cross_color", "rms", "color that composite coding makes of luma: RMS",
-     FIGURE(cross_color_rms), false},
-    {"cross_color", "p999", "its 99.9th percentile", FIGURE(cross_color_p999), false},
-    {"cross_luma", "rms", "luma that it makes of color: RMS", FIGURE(cross_luma_rms), false},
-    {"cross_luma", "p999", "its 99.9th percentile", FIGURE(cross_luma_p999), false},
-    {"order", "ratio", "total variation in time, bottom first over top first",
-     FIGURE(order_ratio), false},
-    {"legal", "range_share", "share of the picture outside narrow range", FIGURE(range_share),
-     false},
-    {"legal", "r103_share", "share of the picture outside EBU R103", FIGURE(r103_share), false},
-    {"difference", "rmse", "RMS difference, of the largest code", FIGURE(rmse), false},
-    {"difference", "psnr", "peak signal over it, dB", FIGURE(psnr), true},
-    {"difference", "ssim", "structural similarity", FIGURE(ssim), true},
-};
-
-const wf_figure_kind *wf_figure_at(size_t index) {
-    return index < sizeof figures_table / sizeof *figures_table ? &figures_table[index] : NULL;
-}
-
-double wf_figure_value(const wf_figures *figures, const wf_figure_kind *kind) {
-    double value;
-    memcpy(&value, (const char *)figures + kind->offset, sizeof value);
-    return value;
-}
-
-/* ---- Measuring ---- */
+#include "convert/check/measure_difference.h"
+#include "convert/check/measurement.h"
 
 static const wf_measurement *const measurements[] = {&wf_measure_flicker, &wf_measure_sharpness,
                                                      &wf_measure_composite, &wf_measure_order,
                                                      &wf_measure_legal};
 
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
-#define DELIVERY     3 /* from here on, those that a delivery is held to */
+#define DELIVERY     3 /* index of the first that a delivery is held to: order and legality */
 
 typedef struct measuring {
     const char *path;
     const wf_measure_options *options;
     wf_video *video, *reference;
     wf_signals *signals;
-    wf_signal *signal[2]; /* of the frame in hand and of the one before, by turns */
-    size_t first;         /* of the measurements */
+    wf_signal *signal[2]; /* [frame % 2]: of this frame and of the one before */
+    size_t first;         /* of the measurements that are made */
     void *state[MEASUREMENTS];
     wf_difference *difference;
     int64_t frames;
@@ -106,7 +72,7 @@ static weft_status begin(measuring *m, weft_error *err) {
     return status;
 }
 
-/* The reference has to have the frame as well. */
+/* Takes the reference's frame, which has to be there exactly if the frame is. */
 static weft_status compare(measuring *m, const wf_video_frame *frame, weft_error *err) {
     const wf_video_frame *reference;
     if (!m->reference) return WEFT_OK;

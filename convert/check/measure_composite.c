@@ -5,15 +5,18 @@
 #include "color/composite/decode.h"
 #include "color/composite/encode.h"
 #include "convert/check/histogram.h"
-#include "convert/check/measure_kinds.h"
+#include "convert/check/measurement.h"
 #include "convert/read/television.h"
 
-#define FLAT 0.5f /* luma under the picture's color */
+#define FLAT                                                                                   \
+    0.5f /* the level luma under the picture's color when luma is what is looked for           \
+          */
 
 typedef struct composite {
     wf_composite *coder; /* NULL: the raster has no composite system */
     wf_histogram color, luma;
-    float *room, *plane[3], *row, *scratch;
+    float *memory; /* what the following point into */
+    float *plane[3], *row, *scratch;
     size_t samples;
     int64_t frame;
 } composite;
@@ -24,21 +27,22 @@ static void composite_free(void *state) {
     wf_composite_free(c->coder);
     wf_histogram_free(&c->color);
     wf_histogram_free(&c->luma);
-    free(c->room);
+    free(c->memory);
     free(c);
 }
 
-static bool make_room(composite *c, const wf_video_info *info) {
+static bool make_planes(composite *c, const wf_video_info *info) {
     size_t rows = wf_composite_row(c->coder) * (size_t)info->lines;
-    c->room = malloc((3 * c->samples + rows + wf_composite_scratch(c->coder)) * sizeof(float));
-    if (!c->room) return false;
-    for (int p = 0; p < 3; p++) c->plane[p] = c->room + (size_t)p * c->samples;
-    c->row = c->room + 3 * c->samples;
+    c->memory =
+        malloc((3 * c->samples + rows + wf_composite_scratch(c->coder)) * sizeof(float));
+    if (!c->memory) return false;
+    for (int p = 0; p < 3; p++) c->plane[p] = c->memory + (size_t)p * c->samples;
+    c->row = c->memory + 3 * c->samples;
     c->scratch = c->row + rows;
     return wf_histogram_init(&c->color, 0) && wf_histogram_init(&c->luma, 0);
 }
 
-/* The coder that misbehaves most: what cheap recorders add, as a plain television sees it. */
+/* The worst coder and decoder: luma that is not filtered, seen on a television with a notch. */
 static void *composite_begin(const wf_video_info *info, const wf_measure_options *options) {
     (void)options;
     wf_tv tv = {.encoder = WF_ENCODER_CHEAP, .decoder = WF_DECODER_NOTCH};
@@ -46,11 +50,12 @@ static void *composite_begin(const wf_video_info *info, const wf_measure_options
     if (!c || !wf_television_of(&info->raster, &tv)) return c;
     c->samples = (size_t)info->width_px * (size_t)info->lines;
     c->coder = wf_composite_new(&tv);
-    if (c->coder && make_room(c, info)) return c;
+    if (c->coder && make_planes(c, info)) return c;
     composite_free(c);
     return NULL;
 }
 
+/* Through the coder and back, in place. */
 static void code(const composite *c) {
     wf_composite_encode(c->coder, c->frame, c->plane, c->row, c->scratch);
     wf_composite_decode(c->coder, c->frame, c->row, c->plane, c->scratch);

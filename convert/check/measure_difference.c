@@ -1,9 +1,10 @@
 /* Differences from a reference: plane by plane, whole frames and each field by itself. */
+#include "convert/check/measure_difference.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "color/codes/levels.h"
-#include "convert/check/measure_kinds.h"
 
 /* Structural similarity (Wang, Bovik, Sheikh and Simoncelli, 2004, equation 13) over square
  * windows that overlap by half; samples reach from 0 to 1. */
@@ -22,7 +23,7 @@ typedef struct sums {
 struct wf_difference {
     wf_layout layout;
     int planes;
-    double scale[3], offset[3]; /* signals to shares of the largest code */
+    double scale[3], offset[3]; /* signal * scale + offset is a share of the largest code */
     sums sum[3][3];             /* [plane][lines_of] */
 };
 
@@ -49,7 +50,7 @@ void wf_difference_free(wf_difference *difference) {
     free(difference);
 }
 
-/* Some lines of a plane of both videos. */
+/* The same lines of a plane of both videos. */
 typedef struct planes {
     const float *a, *b;
     size_t line_stride;

@@ -3,24 +3,24 @@
 #include <stdlib.h>
 
 #include "convert/check/histogram.h"
-#include "convert/check/measure_kinds.h"
+#include "convert/check/measurement.h"
 
-#define SAME     0.01f /* fields of one parity that agree so far show the same content */
-#define SEEN     0.02f /* what counts for the share */
-#define CRT_LEFT 0.1f  /* of a line's light when the next field is drawn */
+#define SAME     0.01f /* of white: fields of one parity that differ by no more show the same */
+#define SEEN     0.02f /* of white: flicker above this counts for the share */
+#define CRT_LEFT 0.1f  /* of a line's light is left when the next field is drawn */
 
 typedef struct flicker {
-    wf_histogram spread;
+    wf_histogram values;
     wf_display_kind display;
     size_t samples;
-    float *heat;    /* [lines][width]: sums of squares; NULL: not wanted */
-    unsigned *seen; /* [lines][width]: of how many frames */
+    float *heat;    /* [lines][width]: sums of the flicker's squares; NULL: not wanted */
+    unsigned *seen; /* [lines][width]: how many frames each is the sum of */
 } flicker;
 
 static void flicker_free(void *state) {
     flicker *f = state;
     if (!f) return;
-    wf_histogram_free(&f->spread);
+    wf_histogram_free(&f->values);
     free(f->heat);
     free(f->seen);
     free(f);
@@ -31,7 +31,7 @@ static void *flicker_begin(const wf_video_info *info, const wf_measure_options *
     if (!f) return NULL;
     f->display = options->display;
     f->samples = (size_t)info->width_px * (size_t)info->lines;
-    bool made = wf_histogram_init(&f->spread, SEEN);
+    bool made = wf_histogram_init(&f->values, SEEN);
     if (options->want_heat) {
         f->heat = calloc(f->samples, sizeof *f->heat);
         f->seen = calloc(f->samples, sizeof *f->seen);
@@ -42,8 +42,8 @@ static void *flicker_begin(const wf_video_info *info, const wf_measure_options *
     return NULL;
 }
 
-/* What a line of the raster shows: its own light, and that of the other field's two lines about
- * it, stretched. At the picture's edge there is only one. */
+/* A line of the raster and the two lines of the other field about it, from which a bob display
+ * makes the light of that field here. At the picture's edge both are the only one there is. */
 typedef struct line_pair {
     const float *own, *above, *below;
 } line_pair;
@@ -70,15 +70,15 @@ static float flicker_at(const flicker *f, line_pair p, int x) {
     return 0.5f * fabsf(p.own[x] - stretched(p, x));
 }
 
-/* The pair of fields of one frame, where another frame shows the same; everywhere if there is
- * no other. */
+/* Adds the flicker of a frame's two fields where another frame shows the same content, or
+ * everywhere if there is no other. */
 static void add_pair(flicker *f, const wf_signal *s, const wf_signal *other) {
     for (int y = 0; y < s->lines; y++) {
         line_pair p = lines_at(s, y), q = lines_at(other ? other : s, y);
         for (int x = 0; x < s->width_px; x++) {
             if (!same_content(p, q, x)) continue;
             float value = flicker_at(f, p, x);
-            wf_histogram_add(&f->spread, value);
+            wf_histogram_add(&f->values, value);
             if (!f->heat) continue;
             size_t at = (size_t)y * (size_t)s->width_px + (size_t)x;
             f->heat[at] += value * value;
@@ -103,9 +103,9 @@ static void flicker_finish(void *state, const wf_signal *last, const wf_signal *
                            wf_figures *figures) {
     flicker *f = state;
     add_pair(f, last, before);
-    figures->flicker_rms = wf_histogram_rms(&f->spread);
-    figures->flicker_p999 = wf_histogram_quantile(&f->spread, 0.999);
-    figures->flicker_share = wf_histogram_share(&f->spread);
+    figures->flicker_rms = wf_histogram_rms(&f->values);
+    figures->flicker_p999 = wf_histogram_quantile(&f->values, 0.999);
+    figures->flicker_share = wf_histogram_share(&f->values);
     figures->heat = heat_of(f);
 }
 

@@ -4,12 +4,13 @@
 
 #include "color/codes/r103.h"
 #include "color/codes/ycbcr.h"
-#include "convert/check/measure_kinds.h"
+#include "convert/check/measurement.h"
 #include "convert/job/colors.h"
 
 #define ROUNDING      1e-6f /* of floats is no offense */
 #define CODE_ROUNDING 1e-3f /* in codes of 8 bits, of which one of 16 bits is 4e-3 */
 
+/* What has been counted, in pixels. */
 typedef struct legal {
     wf_luma luma;
     bool all_codes; /* full range: there is nothing outside it */

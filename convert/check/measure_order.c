@@ -1,28 +1,29 @@
-/* Field order, from pixels: time runs the way in which the fields differ least. Luma is
- * compared, not light: where a wheel's spokes alias, bright ones would outvote what is seen. */
+/* Field order from pixels: fields are in the order of time in which each differs least from the
+ * next. Luma is compared and not light, in which the bright spokes of a wheel that aliases
+ * would outvote what is seen. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/check/measure_kinds.h"
+#include "convert/check/measurement.h"
 
-#define MOVES       0.02f /* a pixel that changes by more between frames moves */
-#define STILL_SHARE 2e-6  /* of the pixels that may move in a still */
-#define WEAVES      0.6 /* fields of one instant: nearer to each other than this many frames, */
-#define EVEN        0.8 /* and as far from the frame before as from the next, to this ratio */
-#define SLOW        0.02  /* of the change in all: distances that only tell of details */
-#define LEAN        0.005 /* sums of the two orders that differ by less are the same; and with */
-#define LEAN_ALONE  0.05  /* one or two pairs of frames, which cannot agree or differ much */
-#define SURE        1.5   /* times the deviation of the mean */
-#define REPEATED    0.1   /* a field that changes this much less than the other is repeated */
-#define CADENCE     5     /* frames in which 2:3 repeats one field of each parity */
-#define PAIRS_LEAST 5     /* of frames, for a cadence to show */
-#define LINES_LEAST 4     /* of a picture: each line is seen between two others */
-#define IN_STEP     0.8   /* of the repeats, at the same place of their five */
+#define MOVES       0.02f /* of luma: a pixel that changes by more between frames moves */
+#define STILL_SHARE 2e-6  /* of the pixels may move in a still */
+#define WEAVES      0.6  /* fields of one instant differ by less than this times those of two */
+#define EVEN        0.8  /* distances before and after whose ratio is above this are the same */
+#define SLOW        0.02 /* of all change: smaller distances only tell of details */
+#define LEAN        0.005 /* a mean lean of less is none */
+#define LEAN_ALONE  0.05  /* the same of one or two pairs of frames, which cannot agree */
+#define SURE        1.5   /* the mean's own deviations that a lean has to exceed */
+#define REPEATED    0.1 /* a field that changes by less than this times the other is repeated */
+#define CADENCE     5   /* frames in which 2:3 repeats one field of each parity */
+#define PAIRS_LEAST 5   /* of frames, for a cadence to show */
+#define LINES_LEAST 4   /* of a picture: each line is compared with the two about it */
+#define IN_STEP     0.8 /* of the repeats are at the same place of their five */
 
-/* Distances between fields, summed over pixels that move: of the two of a frame; of the bottom
- * one and the next frame's top one, which top first shows one after the other; and of the top
- * one and the next frame's bottom one. */
+/* Distances between fields, summed over pixels that move: within a frame, between its two
+ * fields; from a bottom field to the next frame's top field, which follows it where top
+ * is first; and from a top field to the next frame's bottom field. */
 typedef struct distances {
     double within, bottom_top, top_bottom;
 } distances;
@@ -32,10 +33,10 @@ typedef struct distances {
  * nothing; `beside` how far from their mean, for what moves by less than a line. */
 typedef struct order {
     distances outside, beside;
-    double leans, leans_squared; /* of each pair of frames: how much nearer one order is */
-    double change, moved, pixels;
-    int64_t pairs;               /* of frames between which something moves */
-    int64_t repeats[2][CADENCE]; /* [parity][place in the five] */
+    double leans, leans_squared;  /* sums over pairs of frames; see note_lean */
+    double change, moved, pixels; /* luma's change in all, pixels that move, pixels seen */
+    int64_t pairs;                /* of frames between which something moves */
+    int64_t repeats[2][CADENCE];  /* [parity][place in the five] */
     int64_t frame;
     bool fields; /* the label says that there are fields */
 } order;
@@ -56,8 +57,9 @@ static float beside(float v, float above, float below) {
     return fabsf(v - 0.5f * (above + below));
 }
 
-/* A line of the frame before (a): its distances from the other field of a and of the frame in
- * hand (b), and those of b's line from the other field of a. */
+/* For a line of frame a and the same line of the next frame, b: how far a's is from the other
+ * field of a (within) and of b (ahead), and how far b's is from the other field of a (behind).
+ */
 typedef struct steps {
     double within, ahead, behind;
 } steps;
@@ -77,7 +79,7 @@ static void add_steps(distances *d, const steps *s, bool top) {
     d->bottom_top += top ? s->behind : s->ahead;
 }
 
-/* Line y; returns how much it changes. */
+/* Adds line y of both frames; returns how much its luma changes. */
 static double add_line(order *o, const wf_signal *a, const wf_signal *b, int y) {
     ptrdiff_t width = a->width_px;
     const float *p = a->ycbcr[0] + y * width, *q = b->ycbcr[0] + y * width;
@@ -96,6 +98,8 @@ static double add_line(order *o, const wf_signal *a, const wf_signal *b, int y) 
     return changes;
 }
 
+/* How much nearer one order is than the other in this pair of frames: -1 to 1, above 0 where
+ * bottom to top is the shorter way, as with top first. */
 static void note_lean(order *o, const distances *earlier) {
     double down = o->outside.top_bottom - earlier->top_bottom;
     double up = o->outside.bottom_top - earlier->bottom_top;
@@ -138,7 +142,7 @@ static int64_t most_of(const int64_t *count) {
     return most;
 }
 
-/* In 2:3 one field in five of each parity is the one before once more. */
+/* In 2:3 pulldown one field in five of each parity is the same as the one before. */
 static bool is_telecined(const order *o) {
     if (o->pairs < PAIRS_LEAST) return false;
     for (int parity = 0; parity < 2; parity++) {
@@ -155,12 +159,13 @@ static double farther(const distances *d) {
     return fmax(d->bottom_top, d->top_bottom);
 }
 
+/* Which distances tell the order: where motion is slow, those from the mean. */
 static const distances *telling(const order *o) {
     return farther(&o->outside) < SLOW * o->change ? &o->beside : &o->outside;
 }
 
-/* Grain makes all fields differ alike. What little is left tells an order only if it leans one
- * way again and again: by its mean beside the mean's own deviation. */
+/* Grain makes all fields differ alike. What little difference is left tells an order only if it
+ * leans one way again and again, so that its mean exceeds the mean's own deviation. */
 static bool leans(const order *o) {
     double n = (double)o->frame, mean = o->leans / n;
     if (n < 3) return fabs(mean) > LEAN_ALONE;
@@ -172,7 +177,7 @@ static const char *verdict_of(const order *o, const distances *d) {
     if (!(o->moved > STILL_SHARE * o->pixels)) return "still";
     if (is_telecined(o)) return "telecined";
     double nearer = fmin(d->bottom_top, d->top_bottom);
-    bool slow = d == &o->beside; /* then details hide how near the two fields are */
+    bool slow = d == &o->beside; /* then details hide how alike the two fields are */
     if (nearer > EVEN * farther(d) && (slow || d->within < WEAVES * nearer || !leans(o)))
         return o->fields ? "psf" : "progressive";
     return d->bottom_top < d->top_bottom ? "tff" : "bff";

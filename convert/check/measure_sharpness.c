@@ -2,12 +2,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "convert/check/measure_kinds.h"
+#include "convert/check/measurement.h"
 
 #define FREQUENCY 0.25 /* cycles a line, of the zone plate */
-#define HALF_BAND 0.01 /* about it, and about 0 along the lines: cycles a line */
-#define CONTRAST  0.5  /* amplitude of both charts */
-#define MARGIN    8    /* lines at the upper and lower edge that no grating is looked for in */
+#define HALF_BAND                                                                              \
+    0.01             /* pixels whose frequency is off by no more are fitted, cycles a line     \
+                      */
+#define CONTRAST 0.5 /* amplitude of both charts */
+#define MARGIN   8   /* lines at the upper and lower edge that no grating is looked for in */
 
 typedef struct sharpness {
     wf_chart chart;
@@ -39,8 +41,8 @@ static void fit_add(fit *f, double light, double wave) {
 }
 
 static double fit_amplitude(const fit *f) {
-    double spread = f->ww - f->w * f->w / f->n;
-    return f->n > 2 && spread > 0 ? (f->lw - f->l * f->w / f->n) / spread : NAN;
+    double deviation = f->ww - f->w * f->w / f->n;
+    return f->n > 2 && deviation > 0 ? (f->lw - f->l * f->w / f->n) / deviation : NAN;
 }
 
 /* 1/2 + 1/2 cos(pi r^2 / H): about (0, +-H / 4) its frequency is FREQUENCY, straight up. */

@@ -1,8 +1,9 @@
-/* Delivery profiles. */
+/* The table of delivery profiles. */
+#include "convert/check/profiles.h"
+
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/check/verify.h"
 #include "filters/base/spelling.h"
 
 #define MXF(codec_) .container = "mxf", .codec = codec_

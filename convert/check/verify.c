@@ -1,12 +1,14 @@
+/* Reads a file to its end and gathers all that the checks look at. */
 #include "convert/check/verify.h"
 
+#include <stdio.h>
 #include <string.h>
 
-#include "convert/check/verify_checks.h"
+#include "convert/check/measure.h"
 
 /* ---- What it is held to ---- */
 
-/* Of the profile's rasters the one that the file says, else its first. */
+/* Takes the one of the profile's rasters that the file says it is, else the profile's first. */
 static void take_profile_raster(wf_subject *s, const char *said) {
     char name[64], why[256];
     const char *rasters = s->profile->rasters;
@@ -17,7 +19,7 @@ static void take_profile_raster(wf_subject *s, const char *said) {
     s->raster_known = wf_raster_parse(name, &s->raster, why, sizeof why);
 }
 
-/* A raster of the table that is like the file in everything but its order. */
+/* The name of a raster of the table with the file's size, scan and rate, whatever its order. */
 static const char *raster_but_for_order(const wf_raster *said) {
     const wf_raster *r;
     for (size_t i = 0; (r = wf_raster_at(i)); i++)
@@ -27,8 +29,9 @@ static const char *raster_but_for_order(const wf_raster *said) {
     return NULL;
 }
 
-/* As the file says, or as a named raster close to it; sizes of nobody's are taken as they are.
- */
+/* Takes the raster that the file says it is. Where its order or scan fits none of the table,
+ * one that differs in no more than that is taken; a size that the table does not have stays as
+ * it is. */
 static void take_said_raster(wf_subject *s) {
     const wf_video_info *v = &s->figures.info;
     char why[256];
@@ -36,17 +39,16 @@ static void take_said_raster(wf_subject *s) {
     if (s->contained && s->metadata.scan_known && !s->metadata.interlaced)
         s->raster.scan = WF_PROGRESSIVE;
     bool made_up = strchr(v->raster.name, '@') || s->raster.scan != v->raster.scan;
-    const char *near = made_up ? raster_but_for_order(&s->raster) : NULL;
-    const char *name = near ? near : made_up ? NULL : v->raster.name;
+    const char *name = made_up ? raster_but_for_order(&s->raster) : v->raster.name;
     s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why)
                            : v->scan_known || s->metadata.scan_known;
 }
 
-static void find_raster(wf_subject *s) {
+static void find_raster(wf_subject *s, const wf_raster *asked) {
     if (!s->trouble) take_said_raster(s);
-    if (s->options->raster) {
-        s->raster = *s->options->raster;
-        s->raster_known = true;
+    if (asked) {
+        s->raster = *asked;
+        s->raster_known = s->raster_asked = true;
     } else if (s->profile) {
         take_profile_raster(s, s->raster_known ? s->raster.name : "");
         s->coded_lines = s->profile->coded_lines;
@@ -67,7 +69,7 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
                                         .progress = options->progress,
                                         .progress_user = options->progress_user};
     weft_error trouble = {""}, untold;
-    wf_subject s = {.options = options, .profile = options->profile};
+    wf_subject s = {.profile = options->profile};
     *out = (wf_verification){.profile = options->profile};
     weft_status status = wf_measure(path, &measure, &s.figures, &trouble);
     if (status == WEFT_NO_MEMORY || status == WEFT_INTERRUPTED)
@@ -75,10 +77,11 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     s.trouble = status ? trouble.text : NULL;
     if (status || is_contained(&s.figures.info))
         s.contained = !wf_metadata_read(path, &s.metadata, &untold);
-    find_raster(&s);
+    find_raster(&s, options->raster);
     if (!status && s.figures.info.layout != WF_YCBCR)
         (void)wf_frame_labels_read(path, s.raster.frame_rate, &s.labels, &untold);
     out->raster = s.raster;
-    wf_run_checks(&s, out);
+    out->count = wf_run_checks(&s, out->finding);
+    for (size_t i = 0; i < out->count; i++) out->wrong += out->finding[i].verdict == WF_WRONG;
     return WEFT_OK;
 }

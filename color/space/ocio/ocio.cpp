@@ -169,7 +169,7 @@ struct Block {
     size_t used;
 };
 
-// OpenColorIO takes the other channels with one that is NaN, and Inf spreads.
+// OpenColorIO makes all channels of a pixel black where one is NaN, and lets Inf into the others.
 float finite(float x) {
     if (std::isnan(x)) return 0;
     return std::isinf(x) ? std::copysign(65504.0f, x) : x;

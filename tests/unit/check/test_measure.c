@@ -77,7 +77,7 @@ static wf_figures measured(const char *name, const wf_measure_options *options) 
 
 static const wf_measure_options plain = {.raster = NULL};
 
-static void near_to(double value, double expected, double tolerance) {
+static void assert_close(double value, double expected, double tolerance) {
     if (!(fabs(value - expected) <= tolerance))
         print_message("%.8g, expected %.8g within %.2g\n", value, expected, tolerance);
     assert_true(fabs(value - expected) <= tolerance);
@@ -85,17 +85,17 @@ static void near_to(double value, double expected, double tolerance) {
 
 /* ---- Distributions ---- */
 
-static void spread_of_a_ramp(void **state) {
+static void histogram_of_a_ramp(void **state) {
     (void)state;
     wf_histogram s;
     assert_true(wf_histogram_init(&s, 0.25f));
     assert_true(isnan(wf_histogram_rms(&s)) && isnan(wf_histogram_quantile(&s, 0.5)));
     for (int i = 0; i < 10000; i++) wf_histogram_add(&s, (float)i / 10000);
     wf_histogram_add(&s, NAN);
-    near_to(wf_histogram_rms(&s), 1 / sqrt(3), 1e-4);
-    for (double q = 0.1; q < 1; q += 0.1) near_to(wf_histogram_quantile(&s, q), q, 6e-4);
-    near_to(wf_histogram_quantile(&s, 0.999), 0.999, 1e-3);
-    near_to(wf_histogram_share(&s), 0.75, 2e-4);
+    assert_close(wf_histogram_rms(&s), 1 / sqrt(3), 1e-4);
+    for (double q = 0.1; q < 1; q += 0.1) assert_close(wf_histogram_quantile(&s, q), q, 6e-4);
+    assert_close(wf_histogram_quantile(&s, 0.999), 0.999, 1e-3);
+    assert_close(wf_histogram_share(&s), 0.75, 2e-4);
     wf_histogram_free(&s);
 }
 
@@ -131,7 +131,7 @@ static void flicker_of_gratings(void **state) {
             squares += v * v;
         }
         wf_figures m = measured("grating.exr", &plain);
-        near_to(m.flicker_rms, sqrt(squares / lines), 1e-6);
+        assert_close(m.flicker_rms, sqrt(squares / lines), 1e-6);
     }
 }
 
@@ -146,7 +146,7 @@ static void flicker_of_flat_light(void **state) {
     assert_true(isnan(m.sharpness) && isnan(m.cross_color_rms) && isnan(m.rmse));
     /* On a CRT the lines themselves come and go: nine tenths of their light. */
     m = measured("flat.exr", &crt);
-    near_to(m.flicker_rms, 0.5 * 0.9 / 2, 1e-6);
+    assert_close(m.flicker_rms, 0.5 * 0.9 / 2, 1e-6);
 }
 
 /* A quarter of the plate, which is alike to the right and the left, above and below. */
@@ -193,15 +193,15 @@ static void zone_plates(void **state) {
         write_exr("plate.exr", 720, 486, plate_light, &p);
         free(p.quarter);
         wf_figures m = measured("plate.exr", &chart);
-        near_to(m.flicker_rms, rows[i].rms, 0.01 * rows[i].rms);
-        near_to(m.flicker_p999, rows[i].p999, 0.02 * rows[i].p999);
-        near_to(m.sharpness, rows[i].response, 0.003);
+        assert_close(m.flicker_rms, rows[i].rms, 0.01 * rows[i].rms);
+        assert_close(m.flicker_p999, rows[i].p999, 0.02 * rows[i].p999);
+        assert_close(m.sharpness, rows[i].response, 0.003);
         assert_string_equal(m.info.raster.name, "525i");
         double squares = 0;
         for (int k = 0; k < 720 * 486; k++) squares += (double)m.heat[k] * (double)m.heat[k];
-        near_to(sqrt(squares / (720 * 486)), m.flicker_rms, 1e-6);
+        assert_close(sqrt(squares / (720 * 486)), m.flicker_rms, 1e-6);
         cross[i] = m.cross_color_rms;
-        near_to(m.cross_luma_rms, 0, 1e-6);
+        assert_close(m.cross_luma_rms, 0, 1e-6);
         free(m.heat);
     }
     print_message("cross-color %.4f %.4f %.4f %.4f\n", cross[0], cross[1], cross[2], cross[3]);
@@ -214,7 +214,7 @@ static void sharpness_of_gratings(void **state) {
         const wf_measure_options chart = {.chart = WF_CHART_GRATING, .grating = f};
         const grating g = {f, 1.1};
         write_exr("grating.exr", 8, 240, grating_light, &g);
-        near_to(measured("grating.exr", &chart).sharpness, 1, 2e-2);
+        assert_close(measured("grating.exr", &chart).sharpness, 1, 2e-2);
     }
 }
 
@@ -362,7 +362,7 @@ static void flicker_where_nothing_moves(void **state) {
                        2;
         squares += pow((own - other) / 2, 2);
     }
-    near_to(measured("half.y4m", &plain).flicker_rms, sqrt(squares / 96), 1e-5);
+    assert_close(measured("half.y4m", &plain).flicker_rms, sqrt(squares / 96), 1e-5);
 }
 
 /* ---- Legality ---- */
@@ -380,8 +380,8 @@ static void legality(void **state) {
     const codes c = {64, 16, 2, 't', "25:1", legal_luma, NULL};
     write_y4m("legal.y4m", &c);
     wf_figures m = measured("legal.y4m", &plain);
-    near_to(m.range_share, 6 / 8.0, 1e-12);
-    near_to(m.r103_share, 2 / 8.0, 1e-12);
+    assert_close(m.range_share, 6 / 8.0, 1e-12);
+    assert_close(m.r103_share, 2 / 8.0, 1e-12);
 }
 
 /* Planes by hand: 16 x 8, 8 bits. */
@@ -403,15 +403,15 @@ static void legality_of_fields(void **state) {
     memset(bytes, 128, sizeof bytes);
     memset(bytes + 16 * 8 + 8, 250, 8);
     write_planes("fields.y4m", "It C420", bytes, 16 * 8 * 3 / 2);
-    near_to(measured("fields.y4m", &plain).range_share, 2 / 8.0, 1e-12);
+    assert_close(measured("fields.y4m", &plain).range_share, 2 / 8.0, 1e-12);
     memset(bytes + 16 * 2, 5, 16); /* and luma line 2 */
     write_planes("fields.y4m", "It C420", bytes, 16 * 8 * 3 / 2);
-    near_to(measured("fields.y4m", &plain).range_share, 3 / 8.0, 1e-12);
+    assert_close(measured("fields.y4m", &plain).range_share, 3 / 8.0, 1e-12);
     write_planes("whole.y4m", "Ip C420", bytes, 16 * 8 * 3 / 2);
-    near_to(measured("whole.y4m", &plain).range_share, 2 / 8.0, 1e-12);
+    assert_close(measured("whole.y4m", &plain).range_share, 2 / 8.0, 1e-12);
     memset(bytes, 0, sizeof bytes);
     write_planes("full.y4m", "It C444 XCOLORRANGE=FULL", bytes, 16 * 8 * 3);
-    near_to(measured("full.y4m", &plain).range_share, 0, 1e-12);
+    assert_close(measured("full.y4m", &plain).range_share, 0, 1e-12);
 }
 
 /* ---- Differences ---- */
@@ -461,19 +461,19 @@ static void differences(void **state) {
     path_of(reference, "a.y4m");
     const wf_measure_options against = {.against = reference};
     wf_figures m = measured("b.y4m", &against);
-    near_to(m.plane[0][0].rmse, step / sqrt(2), 1e-7);
-    near_to(m.plane[0][1].rmse, 0, 1e-9);
-    near_to(m.plane[0][2].rmse, step, 1e-7);
-    near_to(m.plane[0][2].psnr, -20 * log10(step), 1e-4);
-    near_to(m.plane[1][0].rmse, 0, 1e-9);
-    near_to(m.rmse, step / 2, 1e-7); /* half of all samples are chroma */
-    near_to(m.psnr, -20 * log10(step / 2), 1e-4);
-    near_to(m.plane[0][1].ssim, 1, 1e-9);
-    near_to(m.plane[0][2].ssim, similarity_of(&a, &b, 1), 1e-5);
+    assert_close(m.plane[0][0].rmse, step / sqrt(2), 1e-7);
+    assert_close(m.plane[0][1].rmse, 0, 1e-9);
+    assert_close(m.plane[0][2].rmse, step, 1e-7);
+    assert_close(m.plane[0][2].psnr, -20 * log10(step), 1e-4);
+    assert_close(m.plane[1][0].rmse, 0, 1e-9);
+    assert_close(m.rmse, step / 2, 1e-7); /* half of all samples are chroma */
+    assert_close(m.psnr, -20 * log10(step / 2), 1e-4);
+    assert_close(m.plane[0][1].ssim, 1, 1e-9);
+    assert_close(m.plane[0][2].ssim, similarity_of(&a, &b, 1), 1e-5);
     assert_true(m.plane[0][2].ssim < 0.99);
     m = measured("a.y4m", &against);
     assert_true(m.rmse == 0 && isinf(m.psnr));
-    near_to(m.ssim, 1, 1e-9);
+    assert_close(m.ssim, 1, 1e-9);
 }
 
 /* ---- What is refused ---- */
@@ -530,7 +530,7 @@ static void bad_input(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spread_of_a_ramp),
+        cmocka_unit_test(histogram_of_a_ramp),
         cmocka_unit_test(flicker_of_gratings),
         cmocka_unit_test(flicker_of_flat_light),
         cmocka_unit_test(zone_plates),

@@ -160,11 +160,11 @@ static void check_width(const wf_chroma_filter *filter, int width) {
         seed = seed * 1664525 + 1013904223;
         line[n] = kept[n] = (float)(seed >> 8) * 0x1p-24f - 0.5f;
     }
-    size_t room = wf_chroma_scratch((size_t)width);
-    assert_true(room < 1023);
-    scratch[room] = 42;
+    size_t capacity = wf_chroma_scratch((size_t)width);
+    assert_true(capacity < 1023);
+    scratch[capacity] = 42;
     wf_chroma_decimate(filter, line, (size_t)width, scratch);
-    assert_true(scratch[room] == 42);
+    assert_true(scratch[capacity] == 42);
     for (int k = 0; k < width / 2; k++) {
         double want = 0;
         for (int n = -REACH; n <= REACH; n++)

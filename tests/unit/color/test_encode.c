@@ -67,14 +67,14 @@ static bool encoding_at(int index, wf_encoding *e) {
 }
 
 static void encode(const wf_encoding *e, float *r, float *g, float *b, uint16_t *code) {
-    size_t width = (size_t)e->width_px, room = wf_encode_scratch(e);
-    float *scratch = malloc((room + 1) * sizeof *scratch);
+    size_t width = (size_t)e->width_px, capacity = wf_encode_scratch(e);
+    float *scratch = malloc((capacity + 1) * sizeof *scratch);
     assert_non_null(scratch);
     float *const rgb[3] = {r, g, b};
     uint16_t *const out[3] = {code, code + width, code + 2 * width};
-    scratch[room] = 42;
+    scratch[capacity] = 42;
     wf_encode_line(e, rgb, scratch, out);
-    assert_true(scratch[room] == 42);
+    assert_true(scratch[capacity] == 42);
     free(scratch);
 }
 

@@ -150,7 +150,7 @@ static void little_is_left_outside(void **unused) {
 
 /* Patches of the primaries of ACEScg, their sums, white and black, as BT.1886 signals of Rec.
  * 709 (negative light is none), `gain` times as bright as white; every second line has pixels
- * of other colors strewn about, as mending leaves. The matrix: AP1 to BT.709, D60 to D65. */
+ * of other colors strewn about, as NaN fixing leaves. The matrix: AP1 to BT.709, D60 to D65. */
 static void fill_primaries(line *l, int number, double gain) {
     static const double m[3][3] = {{1.70505, -0.62179, -0.08326},
                                    {-0.13026, 1.14080, -0.01055},
@@ -193,7 +193,7 @@ static primaries_left leave_primaries(wf_encoding e, double gain) {
 
 /* Adjusting aims at light that no code holds: it must neither leave more outside nor cost more
  * saturation than plain decimation does. */
-static void primaries_are_mended(void **unused) {
+static void primaries_are_brought_within(void **unused) {
     (void)unused;
     static wf_display display;
     static const double gains[] = {0.6, 1, 3, 10};
@@ -404,7 +404,7 @@ static void grays_are_not_adjusted(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(little_is_left_outside),
-        cmocka_unit_test(primaries_are_mended),
+        cmocka_unit_test(primaries_are_brought_within),
         cmocka_unit_test(legal_colors_stay),
         cmocka_unit_test(legal_lines_of_422_stay),
         cmocka_unit_test(luma_and_hue_are_kept),

@@ -1,8 +1,10 @@
-/* Checks of time: labels, how many frames, how much sound. */
+/* Checks: labels of time, how many frames there are and how much sound. */
+#include "convert/check/check_time.h"
+
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 
-#include "convert/check/verify_checks.h"
 #include "convert/job/timecode.h"
 
 wf_verdict wf_check_timecode(const wf_subject *s, wf_finding *f) {

@@ -1,4 +1,5 @@
-#include "convert/check/verify_frames.h"
+/* Reads the labels in the headers of DPX and EXR sequences. */
+#include "convert/check/frame_labels.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +18,7 @@ static int of_bcd(unsigned byte) {
     return (int)(byte >> 4) * 10 + (int)(byte & 15);
 }
 
-/* False where it has none. */
+/* The label in a word of ST 12-1; false where there is none. */
 static bool read_word(uint32_t word, wf_rational rate, wf_timecode *out) {
     int together = wf_timecode_together(rate);
     if (word == UNDEFINED) return false;
@@ -72,7 +73,8 @@ static bool same_label(const wf_timecode *a, const wf_timecode *b) {
            a->frames == b->frames && a->drop_frame == b->drop_frame;
 }
 
-/* File i, counted from the first that has a label. */
+/* Takes the label of file i, counted from the first that has one, and whether it follows from
+ * it. */
 static void add_label(wf_frame_labels *l, const wf_timecode *label, wf_rational rate,
                       int64_t i) {
     char why[160];

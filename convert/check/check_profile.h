@@ -1,0 +1,10 @@
+#ifndef WF_CONVERT_CHECK_CHECK_PROFILE_H
+#define WF_CONVERT_CHECK_CHECK_PROFILE_H
+
+#include "convert/check/subject.h"
+
+/* What the profile asks for. */
+wf_check_fn wf_check_container, wf_check_codec, wf_check_bits, wf_check_channels,
+    wf_check_tracks, wf_check_sound_bits, wf_check_start;
+
+#endif

@@ -1,0 +1,15 @@
+#ifndef WF_CONVERT_CHECK_CHECKS_H
+#define WF_CONVERT_CHECK_CHECKS_H
+
+#include <stddef.h>
+
+#include "convert/check/subject.h"
+
+/* The most checks that there may be. */
+#define WF_FINDINGS_MOST 32
+
+/* Puts the file to every check that applies to it and that its profile asks for. Returns how
+ * many findings there are in finding. */
+size_t wf_run_checks(const wf_subject *subject, wf_finding finding[WF_FINDINGS_MOST]);
+
+#endif

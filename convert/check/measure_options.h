@@ -1,0 +1,35 @@
+#ifndef WF_CONVERT_CHECK_MEASURE_OPTIONS_H
+#define WF_CONVERT_CHECK_MEASURE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "convert/weft.h"
+#include "filters/raster/raster.h"
+
+typedef enum wf_display_kind {
+    WF_DISPLAY_BOB, /* each field stretched over the frame, line by line linearly */
+    WF_DISPLAY_CRT, /* each field on its own lines; between them what is left of the other */
+} wf_display_kind;
+
+/* What is known to be on the picture; it makes sharpness measurable. */
+typedef enum wf_chart {
+    WF_CHART_NONE,
+    WF_CHART_ZONEPLATE, /* examples/scenes/zoneplate.lua over the whole raster */
+    WF_CHART_GRATING,   /* level, full contrast, sinusoidal in light */
+} wf_chart;
+
+typedef struct wf_measure_options {
+    const wf_raster *raster; /* NULL: as the file says */
+    const char *against;     /* the reference of `difference`; NULL: none */
+    wf_display_kind display;
+    wf_chart chart;
+    double grating; /* cycles a frame line */
+    bool want_heat;
+    bool of_delivery; /* only what a delivery is held to: order and legality */
+    size_t max_memory_bytes;
+    weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
+    void *progress_user;
+} wf_measure_options;
+
+#endif
