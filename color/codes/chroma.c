@@ -17,10 +17,10 @@
     }
 
 static const wf_chroma_filter filters[] = {
-    [WF_CHROMA_BT601] = {"bt601", 10, true, BT601_PAIRS},
-    [WF_CHROMA_LUMA_ADJUST] = {"luma-adjust", 10, true, BT601_PAIRS},
-    [WF_CHROMA_121] = {"121", 1, true, {0.25f}},
-    [WF_CHROMA_BOX] = {"box", 1, false, {0.5f}},
+    [WF_CHROMA_BT601] = {10, true, BT601_PAIRS},
+    [WF_CHROMA_LUMA_ADJUST] = {10, true, BT601_PAIRS},
+    [WF_CHROMA_121] = {1, true, {0.25f}},
+    [WF_CHROMA_BOX] = {1, false, {0.5f}},
 };
 
 const wf_chroma_filter *wf_chroma_filter_of(wf_chroma chroma) {

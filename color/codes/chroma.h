@@ -21,7 +21,6 @@ typedef enum wf_chroma {
 /* A decimation by two, co-sited with even samples: the middle tap is 1/2, those 1 + 2 j samples
  * before and after it are pair[j], all others 0. Taps add up to exactly 1. */
 typedef struct wf_chroma_filter {
-    const char *name;
     size_t pairs;
     bool symmetric; /* false: the only other tap is pair[0], after the middle */
     float pair[WF_CHROMA_PAIRS];

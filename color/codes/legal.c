@@ -8,11 +8,12 @@
 #include "color/codes/r103.h"
 #include "color/codes/ycbcr.h"
 
-#define SOFT (2.5f / 876) /* of a signal: the clip of luma is soft and loses less than a code  \
-                           */
-#define REACH  4          /* pixels to each side over which saturation is compressed alike */
-#define ROUNDS 16         /* of compression: each leaves less to the next */
-#define GRAY   1e-4f      /* chroma that is rounded to none */
+#define SOFT                                                                                   \
+    (2.5f / 876)     /* of a signal: the clip of luma is soft and loses less than a code       \
+                      */
+#define REACH  4     /* pixels to each side over which saturation is compressed alike */
+#define ROUNDS 16    /* of compression: each leaves less to the next */
+#define GRAY   1e-4f /* chroma that is rounded to none */
 
 typedef struct limits {
     float low, high;             /* of R', G', B' */
