@@ -1,13 +1,12 @@
 #!/bin/bash
-# The benchmark in small: counts, and ratios of things that took turns; no seconds.
-set -u
-[ -z "${WEFT_SANITIZE:-}" ] || { echo "skipped: sanitizers change what takes how long"; exit 77; }
-command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
-out=$(mktemp -d)
-trap 'rm -rf "$out"' EXIT
+# The benchmark in small: counts and errors; at full length also ratios of things that took turns. No
+# seconds.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized never
+needs python3
 export PYTHONDONTWRITEBYTECODE=1
-python3 "$WEFT_SOURCE/tests/bench/run.py" "$WEFT_BUILD" --small --out "$out" \
-    --only converter,tracer,targets || exit 1
-for file in converter.csv tracer.csv table.md converter.svg carousel.svg zoneplate.svg; do
-    [ -s "$out/$file" ] || { echo "FAILED: no $file"; exit 1; }
-done
+parts=converter files="converter.csv table.md converter.svg"
+is_long && parts=converter,tracer,targets files="$files tracer.csv carousel.svg zoneplate.svg"
+check "benchmark" python3 "$WEFT_SOURCE/tests/bench/run.py" "$WEFT_BUILD" --small --out made --only $parts
+for file in $files; do check "$file" test -s "made/$file"; done
+finish

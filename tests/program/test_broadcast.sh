@@ -2,17 +2,16 @@
 # weft composite as its users run it: bars through every coder and decoder, labels kept, what is
 # refused and how, nothing half written.
 . "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_jobs.sh composites"
 
-command -v python3 >/dev/null || { echo "skipped: no python3 to make and read bars with"; exit 77; }
+needs python3
 
 # refused TEXT ARGUMENT..: status 2, a message with the text, no file.
 refused()
 {
     local text=$1
     shift
-    exits 2 "$WEFT" composite "$@" || return 1
-    grep -qF -e "$text" said || { echo "not said: $text"; cat said; return 1; }
-    [ ! -e no.y4m ] || { echo "no.y4m is there"; return 1; }
+    exits 2 "$WEFT" composite "$@" && says "$text" && [ ! -e no.y4m ]
 }
 
 # ---- Video to try: 4:2:2 of 8 bits ----
@@ -70,7 +69,7 @@ def repeats(path):
     all_frames = frames(path)[1]
     print(*(i for i, f in enumerate(all_frames) if f == all_frames[0]))
 
-# How far chroma is from grey at most.
+# How far chroma is from gray at most.
 def chroma(path):
     lines, all_frames = frames(path)
     print(max(abs(c - 128) for f in all_frames for line in range(lines)
@@ -110,7 +109,6 @@ check "from a pipe to a pipe" cmp plain.y4m \
 
 # ---- False color, and how it shimmers ----
 
-same() { [ "$1" = "$2" ] || { echo "'$1', not '$2'"; return 1; }; }
 tool make s525.y4m 486 30000:1001 b 5 stripes
 tool make s625.y4m 576 25:1 t 5 stripes
 for lines in 525 625; do
@@ -194,21 +192,9 @@ check "an input that is not there" exits 1 "$WEFT" composite nowhere.y4m -o left
 check "nothing is left of them" [ -z "$(ls -A left)" ]
 check "a full device" exits 1 bash -c "'$WEFT' composite 525.y4m -o - >/dev/full"
 
-# An input that goes on for ever; stopped SIGNAL CODE.
+# An input that goes on for ever.
 endless() { cat 525.y4m; while tail -n +2 525.y4m; do :; done; }
-stopped()
-{
-    local pid code
-    "$WEFT" composite - -o left/long.y4m 2>said < <(endless 2>/dev/null) &
-    pid=$!
-    sleep 0.5
-    kill -0 $pid || { echo "it was done before it could be stopped"; return 1; }
-    kill -s "$1" $pid
-    wait $pid
-    code=$?
-    [ $code = "$2" ] || { echo "status $code, not $2"; cat said; return 1; }
-    [ -z "$(ls -A left)" ] || { ls -A left; return 1; }
-}
+stopped() { interrupted "$1" "$2" 0.5 "$WEFT" composite - -o left/long.y4m < <(endless 2>/dev/null); }
 check "SIGINT" stopped INT 130
 check "SIGTERM" stopped TERM 143
 

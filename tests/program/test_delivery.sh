@@ -1,87 +1,14 @@
 #!/bin/bash
-# Deliveries in QuickTime, MXF and Matroska: every codec on the rasters it takes, held by other programs
-# and byte by byte to what the raster demands; codes that survive; what is refused; sound and timecode.
+# Deliveries in QuickTime, MXF and Matroska: codes that survive, sound and timecode, pictures that are
+# hard to code, and what is refused. test_codecs.sh has every codec and raster.
 . "$WEFT_SOURCE/tests/program/script.sh"
-
-ls "$WEFT_BUILD"/lib*/weft/weft-libav.so >/dev/null 2>&1 || { echo "skipped: weft was built without libav"; exit 77; }
-for tool in ffmpeg ffprobe mediainfo; do has $tool || exit 77; done
-"$WEFT_BUILD/make_subframes" in 64 || exit 1
-
-# made OUTPUT OPTION..: the moving subframes as a delivery.
-made()
-{
-    local output=$1
-    shift
-    exits 0 weft convert in --subframe-rate 400 --aperture box --temporal-width 0 -q -o "$output" "$@"
-}
+not_sanitized "test_jobs.sh writes containers"
+needs_libav
+needs ffmpeg ffprobe mediainfo
+subframes in 64
 
 # delivered FILE CODEC RASTER [TIMECODE [TRACKS]]: it says and holds what its raster demands.
 delivered() { python3 "$WEFT_SOURCE/tests/program/delivered.py" "$@"; }
-
-# ---- Every codec, the rasters it takes ----
-
-# FILE CODEC RASTER [OPTION..]
-cat >matrix <<'END'
-525i.mov v210 525i
-prores.mov prores 525i
-xdcam.mov xdcamhd422 1080i59.94
-dv.mov dvcpro50 525i
-avci720.mov avci100 720p50
-imx525.mxf imx50 525i-imx
-dv.mxf dvcpro50 625i-dv
-dnxhd.mxf dnxhd 1080psf25
-525i.mkv ffv1 525i
-END
-[ -n "${WEFT_SANITIZE:-}" ] || cat >>matrix <<'END'
-wide.mov v210 625i-dv-wide
-hq.mov prores-hq 525i-imx
-dnxhd.mov dnxhd 1080i50
-dnxhd8.mov dnxhd 720p50 --bits 8
-dnxhr.mov dnxhr 1080p23.976
-xdcam720.mov xdcamhd422 720p59.94
-dv625.mov dvcpro50 625i-dv-wide
-avci.mov avci100 1080i59.94
-avci24.mov avci100 1080p23.976
-xdcam.mxf xdcamhd422 1080i50
-xdcam24.mxf xdcamhd422 1080p23.976
-xdcam720.mxf xdcamhd422 720p50
-dnxhdi.mxf dnxhd 1080i59.94
-imx.mxf imx50 625i-wide
-dv525.mxf dvcpro50 525i-imx
-avci.mxf avci100 1080i59.94
-rp202.mkv ffv1 525i-rp202
-444.mkv ffv1 625i-dv --bits 16 --chroma 444
-END
-make_one()
-{
-    local file=$1 codec=$2 raster=$3
-    shift 3
-    [ "$codec" != avci100 ] || [ -n "$have_x264" ] || return 0
-    timeout 250 "$WEFT" convert in --subframe-rate 400 --aperture box --temporal-width 0 --threads 1 -q -o "$file" \
-        --codec "$codec" --raster "$raster" "$@" >"$file.said" 2>&1 && delivered "$file" "$codec" "$raster" >>"$file.said" 2>&1 && "$WEFT" verify "$file" >>"$file.said" 2>&1
-    echo $? >"$file.rc"
-}
-export -f make_one delivered
-have_x264=$(ffmpeg -hide_banner -encoders 2>/dev/null | grep -o libx264 | head -n 1)
-export have_x264 WEFT WEFT_SOURCE
-[ -n "$have_x264" ] || { skipped=$((skipped + 1)); echo "skipped: AVC-Intra, as there is no libx264"; }
-xargs -P 2 -L 1 bash -c 'make_one "$@"' _ <matrix
-right() { [ "$(cat "$1.rc" 2>/dev/null)" = 0 ] || { cat "$1.said"; return 1; }; }
-while read -r file codec raster _; do
-    [ "$codec" = avci100 ] && [ -z "$have_x264" ] && continue
-    check "$codec of $raster in $file" right "$file"
-done <matrix
-
-# ---- Read back ----
-
-# known FILE RASTER: what weft makes of it.
-known() { exits 0 weft info "$1" --json && value "d['files'][0]['raster'] == '$2'"; }
-check "raster of v210" known 525i.mov 525i
-check "of DV, in the order of its own" known dv.mov 525i-dv
-check "of DV in MXF" known dv.mxf 625i-dv
-check "of D-10, without the interval's lines" known imx525.mxf 525i-imx
-check "of XDCAM" known xdcam.mov 1080i59.94
-check "of FFV1" known 525i.mkv 525i
 
 # ---- Codes survive ----
 
@@ -96,6 +23,9 @@ same_codes()
     cmp codes1.raw codes2.raw
 }
 check "Y4M" made 525i.y4m --raster 525i
+check "v210" made 525i.mov --raster 525i
+check "FFV1" made 525i.mkv --raster 525i
+check "DV" made dv.mov --codec dvcpro50 --raster 525i
 check "v210 in QuickTime has Y4M's codes" same_codes 525i.y4m 525i.mov yuv422p10le
 check "and so has FFV1" same_codes 525i.y4m 525i.mkv yuv422p10le
 made v.v210 --raster 525i
@@ -170,23 +100,9 @@ if has oiiotool; then
     done
 fi
 
-# ---- The same again ----
-
-again()
-{
-    made "again-$1" --codec "$2" --raster "$3" --threads 2 && cmp "again-$1" "$1"
-}
-check "v210 is the same for any number of threads" again 525i.mov v210 525i
-check "so is ProRes" again prores.mov prores 525i
-check "so is DV" again dv.mov dvcpro50 525i
-check "so is D-10" again imx525.mxf imx50 525i-imx
-check "so is FFV1" again 525i.mkv ffv1 525i
-check "so is XDCAM" again xdcam.mov xdcamhd422 1080i59.94
-check "so is DNxHD" again dnxhd.mxf dnxhd 1080psf25
-[ -z "$have_x264" ] || check "so is AVC-Intra" again avci720.mov avci100 720p50
-
 # ---- What is refused, and what is said ----
 
+# refused TEXT OUTPUT OPTION..
 refused()
 {
     local word=$1
@@ -220,23 +136,7 @@ check "a limit to the size of files" exits 1 bash -c "ulimit -f 500; '$WEFT' con
 check "is named" says "limit/big.mov"
 check "and leaves nothing" test -z "$(ls -A limit)"
 
-# stopped: SIGINT ends it within two seconds, and leaves nothing.
-stopped()
-{
-    local pid began code
-    mkdir left
-    "$WEFT" convert in --threads 1 --raster 2160p25 --subframe-rate 20 --temporal-width 2 -q -o left/long.mov 2>said &
-    pid=$!
-    sleep 0.7
-    kill -0 $pid || { echo "it was done before it could be stopped"; return 1; }
-    began=$(date +%s%N)
-    kill -s INT $pid
-    wait $pid
-    code=$?
-    [ $code = 130 ] || { echo "status $code, not 130"; return 1; }
-    [ $(($(date +%s%N) - began)) -lt 2000000000 ] || { echo "it took longer than 2 s"; return 1; }
-    [ -z "$(ls -A left)" ] || { ls -A left; return 1; }
-}
-check "SIGINT" stopped
+check "SIGINT" interrupted INT 130 0.7 "$WEFT" convert in --threads 1 --raster 2160p25 --subframe-rate 20 \
+    --temporal-width 2 -q -o left/long.mov
 
 finish

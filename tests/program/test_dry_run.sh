@@ -64,7 +64,7 @@ check "Y4M" fresh --temporal-width 3 -o made.y4m
 check "a later chunk" fresh --chunk 2/3 -o made.y4m
 check "DPX of fields" fresh --fields separate --raster 23x18@30i,bff --temporal-width 0 --bits 12 -o made.#.dpx
 check "pulldown" fresh --raster 24x16@30i,bff --subframe-rate 96 --cadence 2:3 --bits 8 -o made.v.y4m
-if [ -z "${WEFT_SANITIZE:-}" ]; then # the same paths
+if ! is_sanitized; then # the same paths
     check "25 frames" fresh --raster 24x16@25i,bff --bits 8 -o made.uyvy
     check "segmented" fresh --raster 24x16@30psf --temporal-width 0 -o made.v210
     check "a hash" fresh --chunk 3/3 -o hash:made.txt
@@ -72,7 +72,7 @@ if [ -z "${WEFT_SANITIZE:-}" ]; then # the same paths
         check "DPX of $bits bits" fresh --frames 0-7 --raster 23x18@30i,bff --bits $bits -o made.#.dpx
     done
     check "PNG" fresh --frames 0-15 -o made.#.png
-    if [ -e "$WEFT_BUILD/lib/weft/weft-libav.so" ]; then
+    if has_libav; then
         check "a container" fresh --frames 0-8 --raster 525i --audio silent:2 -o made.mov
         check "a coded one" fresh --raster 24x16@30i,tff --codec ffv1 -o made.mkv
     fi

@@ -1,15 +1,12 @@
 #!/bin/bash
 # The farm scripts of examples/farm without a farm: parts, what they are held to, what is joined,
 # and GNU parallel. tests/program/test_slurm.sh has the same on Slurm.
-if [ -n "${WEFT_SANITIZE:-}" ]; then
-    echo "SKIP: the farm scripts are tried with an ordinary build"
-    exit 77
-fi
 . "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized never
 farm=$WEFT_SOURCE/examples/farm
 export WEFT
 
-"$WEFT_BUILD/make_subframes" made 16 || exit 1
+subframes made 16
 mkdir "in put"
 for ((k = 0; k < 96; k++)); do
     ln -s "../made/subframe.$(printf %04d $((k % 16))).exr" "in put/s.$(printf %04d $k).exr"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # 2:3 pulldown as others see it: ffmpeg gets the film frames back, and weft measure sees film.
 . "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_cadence.c pulls down"
 
 scene=$WEFT_SOURCE/examples/scenes/carousel.lua
 small="--samples 4 -q --bits 8"

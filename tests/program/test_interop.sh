@@ -2,6 +2,7 @@
 # What other programs make of the outputs: the same codes out of every container of them, and the
 # fields, rates and timecodes that they were told. (tests/program/test_video.sh has Y4M's field order.)
 . "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_jobs.sh writes every form"
 
 convert() { "$WEFT" convert in/subframe.####.exr -q "$@" || { echo "weft convert $*"; return 1; }; }
 
@@ -13,8 +14,8 @@ codes()
     ffmpeg -nostdin -v error "$@" -i "$file" -pix_fmt "$format" -f rawvideo - | md5sum
 }
 
-# same FORMAT FILE FILE OPTION..: the options are for the second file.
-same()
+# alike FORMAT FILE FILE OPTION..: the options are for the second file.
+alike()
 {
     local format=$1 one=$2 other=$3
     shift 3
@@ -39,7 +40,7 @@ unpacked_alike()
     [ "$(codes "gbrp$1le" "p$1.0000.dpx")" = "$other" ] && [ "$other" != "$(md5sum </dev/null)" ]
 }
 
-"$WEFT_BUILD/make_subframes" in 16 || exit 1
+subframes in 16
 
 # ---- The same codes ----
 
@@ -54,8 +55,8 @@ if has ffmpeg; then
         raw="-video_size ${width}x36 -framerate 30000/1001"
         # shellcheck disable=SC2086
         {
-            check "v210 $width is the Y4M" same yuv422p10le "$width.y4m" "$width.v210" -f v210 $raw
-            check "uyvy $width is the Y4M" same yuv422p "$width-8.y4m" "$width.uyvy" -f rawvideo $raw \
+            check "v210 $width is the Y4M" alike yuv422p10le "$width.y4m" "$width.v210" -f v210 $raw
+            check "uyvy $width is the Y4M" alike yuv422p "$width-8.y4m" "$width.uyvy" -f rawvideo $raw \
                 -pixel_format uyvy422
         }
     done
@@ -64,8 +65,8 @@ if has ffmpeg; then
             check "$kind, $bits bits" convert --bits $bits -o "p$bits.####.$kind"
         done
         format=$([ $bits = 8 ] && echo rgb24 || echo rgb48le)
-        check "TIFF is PNG, $bits bits" same "$format" p$bits.0000.png p$bits.0000.tif
-        check "DPX is PNG, $bits bits" same "$format" p$bits.0000.png p$bits.0000.dpx
+        check "TIFF is PNG, $bits bits" alike "$format" p$bits.0000.png p$bits.0000.tif
+        check "DPX is PNG, $bits bits" alike "$format" p$bits.0000.png p$bits.0000.dpx
     done
     # 10 and 12 bits: ffmpeg and OpenImageIO each unpack them in their own way. PNG has the codes in
     # its upper bits.

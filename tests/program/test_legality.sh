@@ -93,7 +93,7 @@ within()
 }
 
 kinds="bright mended"
-[ -n "${WEFT_SANITIZE:-}" ] || kinds="bright thin spark mended"
+is_sanitized || kinds="bright thin spark mended"
 for kind in $kinds; do
     check "$kind" within "$kind"
     check "$kind, adjusted, 12 bits" within "$kind" --chroma luma-adjust --bits 12

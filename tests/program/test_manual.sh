@@ -111,7 +111,7 @@ lines=$plain
 
 # ---- fish, zsh ----
 
-if [ -n "${WEFT_SANITIZE:-}" ]; then
+if is_sanitized; then
     finish # the rest is about text
     exit
 fi
@@ -123,6 +123,8 @@ fi
 if has zsh; then
     "$WEFT" completion zsh >_weft
     check "zsh reads its script" zsh -f -n _weft
+fi
+if has zsh && has_terminal; then
     cat >complete.zsh <<'END2'
 # A shell on a terminal of its own is asked for what it would add; its completion system calls
 # compadd, which is made to print.

@@ -1,18 +1,14 @@
 #!/bin/bash
 # The Python package of convert/python: its tests, its example, and installed in two ways.
+. "$WEFT_SOURCE/tests/program/script.sh"
 python=
 for candidate in /usr/bin/python3 python3; do
     "$candidate" -c 'import numpy' 2>/dev/null && python=$candidate && break
 done
 if [ -z "$python" ]; then
-    echo "SKIP: no Python with NumPy (package python3-numpy)"
-    exit 77
+    skip "no Python with NumPy (package python3-numpy)"
 fi
-if [[ ${WEFT_SANITIZE:-} == *thread* ]]; then
-    echo "SKIP: Python is not built for ThreadSanitizer"
-    exit 77
-fi
-. "$WEFT_SOURCE/tests/program/script.sh"
+[[ ${WEFT_SANITIZE:-} != *thread* ]] || skip "Python is not built for ThreadSanitizer"
 export PYTHONDONTWRITEBYTECODE=1 WEFT
 unset WEFT_LIBRARY PYTHONPATH
 package=$WEFT_BUILD/lib/python3/dist-packages
@@ -22,7 +18,7 @@ package=$WEFT_BUILD/lib/python3/dist-packages
 run()
 {
     local preload=()
-    [ -z "${WEFT_SANITIZE:-}" ] || preload=(ASAN_OPTIONS=detect_leaks=0
+    ! is_sanitized || preload=(ASAN_OPTIONS=detect_leaks=0
         LD_PRELOAD="$("$CC" -print-file-name=libclang_rt.asan-x86_64.so) $("$CC" -print-file-name=libstdc++.so.6)")
     timeout 500 env "${preload[@]}" "$python" "$@"
 }
@@ -39,7 +35,7 @@ check "and writes them" test "$(stat -c %s ring.y4m)" -gt 2799360
 check "its failures" exits 1 run "$WEFT_SOURCE/examples/push_samples.py" ring.y4m 2
 check "are weft's" says "ring.y4m exists"
 
-if [ -z "${WEFT_SANITIZE:-}" ]; then
+if ! is_sanitized; then
     # where: which library a package takes, and that it works.
     where='import weft; weft.raster("525i"); print(weft.library_path)'
     check "the build's library" exits 0 run -c "$where"
@@ -65,8 +61,7 @@ if [ -z "${WEFT_SANITIZE:-}" ]; then
         check "another library" exits 1 run -c "$where"
         check "is no weft" says "libz.so.1 has no weft_version"
     else
-        skipped=$((skipped + 1))
-        echo "skipped: no pip for $python (package python3-pip)"
+        skip_part "no pip for $python (package python3-pip)"
     fi
 fi
 
