@@ -31,7 +31,7 @@ typedef enum weft_status {
     WEFT_OK = 0,
     WEFT_FAILED,     /* input or output at fault: exit code 1 */
     WEFT_USAGE,      /* the request makes no sense: exit code 2 */
-    WEFT_DEGRADED,   /* finished, but frames were held or samples mended: exit code 3 */
+    WEFT_DEGRADED,   /* finished, but frames were held, or NaN and Inf replaced: exit code 3 */
     WEFT_NO_MEMORY,  /* an allocation failed or --max-memory would not do: exit code 1 */
     WEFT_INTERRUPTED /* weft_job_cancel: nothing half-written is left */
 } weft_status;
@@ -60,7 +60,7 @@ WEFT_API weft_status weft_job_set_output(weft_job *job, const char *path, weft_e
 
 /* Sets option name ("raster", "temporal-width"; no dashes) to the text value as the command
  * line would; a flag takes NULL or "". WEFT_USAGE says what the option takes and, for an
- * unknown name, which one is near. */
+ * unknown name, which one may be meant. */
 WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *value,
                                   weft_error *err);
 

@@ -1,3 +1,4 @@
+/* Messages for people, and the status that goes with them. */
 #include "convert/base/fail.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Finds and loads modules: parts of weft that are slow to load. */
 #include "convert/base/module.h"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+/* Names of files: listing a directory, and the sequences that its names form. */
 #include "convert/base/names.h"
 
 #include <dirent.h>
@@ -14,12 +15,12 @@
 
 bool wf_names_add(wf_names *names, const char *name) {
     size_t length = strlen(name) + 1;
-    if (names->room - names->bytes < length) {
-        size_t room = 2 * names->room + length + 4096;
-        char *grown = realloc(names->text, room);
+    if (names->capacity - names->bytes < length) {
+        size_t capacity = 2 * names->capacity + length + 4096;
+        char *grown = realloc(names->text, capacity);
         if (!grown) return false;
         names->text = grown;
-        names->room = room;
+        names->capacity = capacity;
     }
     memcpy(names->text + names->bytes, name, length);
     names->bytes += length;

@@ -8,7 +8,7 @@
  * other: a million take one listing and one block. */
 typedef struct wf_names {
     char *text;
-    size_t bytes, room, count;
+    size_t bytes, capacity, count;
 } wf_names;
 
 /* Zeroed names are empty. wf_names_free releases what either has made, whatever the status. */

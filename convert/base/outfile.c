@@ -1,3 +1,4 @@
+/* Files that appear whole or not at all: buffered writing, and the errors that stick. */
 #include "convert/base/outfile.h"
 
 #include <errno.h>
@@ -99,7 +100,7 @@ weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes,
         file->used += bytes;
         return WEFT_OK;
     }
-    /* What is larger than the room left goes out with what waits before it. */
+    /* What is larger than what is left of the buffer goes out with what waits before it. */
     struct iovec pieces[2] = {{file->buffer, file->used}, {(void *)(uintptr_t)data, bytes}};
     file->used = 0;
     int code = write_pieces(file->fd, pieces, 2);

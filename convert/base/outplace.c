@@ -1,3 +1,4 @@
+/* Where a new file is until it has its name, and how it gets it. */
 #include "convert/base/outplace.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Patterns of sequences, and the numbers in names of files. */
 #include "convert/base/pattern.h"
 
 #include <inttypes.h>

@@ -1,3 +1,4 @@
+/* Lists of frame numbers, as --frames takes them, in exact ratios. */
 #include "convert/base/range.h"
 
 #include <inttypes.h>

@@ -1,3 +1,4 @@
+/* Reads the values of options: sizes, chunks, colors, timecodes. */
 #include "convert/base/values.h"
 
 #include <string.h>

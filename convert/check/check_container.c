@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "convert/media/container.h"
+#include "convert/media/container_mov.h"
 
 wf_verdict wf_check_fiel(const wf_subject *s, wf_finding *f) {
     char is[32] = "none", should[32];

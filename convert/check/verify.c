@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "convert/check/measure.h"
+#include "convert/media/metadata_read.h"
 
 /* ---- What it is held to ---- */
 

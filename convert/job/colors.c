@@ -1,3 +1,4 @@
+/* What colors a raster's video is in, and what files call them. */
 #include "convert/job/colors.h"
 
 #include <string.h>

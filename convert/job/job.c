@@ -7,28 +7,7 @@
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/job/options.h"
 #include "convert/job/timecode.h"
-
-weft_job *weft_job_new(void) {
-    weft_job *job = calloc(1, sizeof *job);
-    if (job && wf_job_preset(job, NULL)) {
-        weft_job_free(job);
-        return NULL;
-    }
-    return job;
-}
-
-void weft_job_free(weft_job *job) {
-    if (!job) return;
-    wf_job_release_options(job);
-    wf_job_clear_inputs(job);
-    free(job->inputs);
-    free(job->output);
-    free(job->report);
-    free(job->plan);
-    free(job);
-}
 
 void wf_job_clear_inputs(weft_job *job) {
     for (size_t i = 0; i < job->input_count; i++) free(job->inputs[i]);

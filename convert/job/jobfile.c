@@ -92,17 +92,17 @@ static void real_text(double value, char text[400]) {
     if (comma) *comma = '.';
 }
 
-/* The text of a string or a number, which room holds unless it is the string's own; NULL of
+/* The text of a string or a number, which `digits` holds unless it is the string's own; NULL of
  * anything else. */
-static const char *scalar_text(const json_t *value, char room[400]) {
+static const char *scalar_text(const json_t *value, char digits[400]) {
     if (json_is_string(value)) return json_string_value(value);
     if (json_is_integer(value))
-        snprintf(room, 400, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+        snprintf(digits, 400, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
     else if (json_is_real(value))
-        real_text(json_real_value(value), room);
+        real_text(json_real_value(value), digits);
     else
         return NULL;
-    return room;
+    return digits;
 }
 
 static const char *type_name(const json_t *value) {
@@ -163,10 +163,10 @@ static weft_status set_pairs(const loading *l, json_t *object, weft_error *err) 
     const char *name;
     json_t *value;
     json_object_foreach(object, name, value) {
-        char room[400], *pair;
+        char digits[400], *pair;
         const char *text = json_is_true(value)    ? "true"
                            : json_is_false(value) ? "false"
-                                                  : scalar_text(value, room);
+                                                  : scalar_text(value, digits);
         if (!text)
             return wrong(l, err, "\"%s\": \"%.100s\" takes text or a number, not %s", l->key,
                          name, type_name(value));
@@ -189,8 +189,8 @@ static weft_status refuse_type(const loading *l, const json_t *value, weft_error
 }
 
 static weft_status set_scalar(const loading *l, const json_t *value, weft_error *err) {
-    char room[400];
-    const char *text = scalar_text(value, room), *takes = l->option.takes;
+    char digits[400];
+    const char *text = scalar_text(value, digits), *takes = l->option.takes;
     if (!takes && json_is_boolean(value)) return set_one(l, NULL, json_is_true(value), err);
     if (takes && json_is_boolean(value) && lists(takes, "on") && lists(takes, "off"))
         text = json_is_true(value) ? "on" : "off";
@@ -200,11 +200,11 @@ static weft_status set_scalar(const loading *l, const json_t *value, weft_error 
 
 /* [0, 0.5, 1] of an option that takes R,G,B. */
 static weft_status set_list(const loading *l, const json_t *array, weft_error *err) {
-    char text[1024] = "", room[400];
+    char text[1024] = "", digits[400];
     size_t used = 0;
     for (size_t i = 0; i < json_array_size(array); i++) {
         const json_t *value = json_array_get(array, i);
-        const char *one = scalar_text(value, room);
+        const char *one = scalar_text(value, digits);
         if (!one) return refuse_type(l, value, err);
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? "," : "", one);
         if (used >= sizeof text) return wrong(l, err, "\"%s\": the array is too long", l->key);

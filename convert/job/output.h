@@ -46,4 +46,9 @@ typedef struct wf_output_options {
     bool overwrite, resume;
 } wf_output_options;
 
+/* Files a frame of a sequence: frame n is files n * this and on, in order of time. */
+static inline int wf_output_files(const wf_output_options *options) {
+    return options->separate_fields ? 2 : 1;
+}
+
 #endif

@@ -1,3 +1,4 @@
+/* The report of a run as JSON; its keys are in convert/README.md. */
 #include "convert/job/report.h"
 
 #include <inttypes.h>

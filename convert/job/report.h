@@ -19,8 +19,8 @@ typedef struct wf_report_legal {
     double worst_share;     /* of a frame, left outside: the most of all frames */
 } wf_report_legal;
 
-/* What a run has to tell (cli.md, Report). Everything is borrowed; NULL, 0 and {0} mean "not
- * known" or "none" and are safe in every member. */
+/* What a run has to tell (convert/README.md, Reports). Everything is borrowed; NULL, 0 and {0}
+ * mean "not known" or "none" and are safe in every member. */
 typedef struct wf_report {
     const char *command;     /* "convert" */
     const wf_raster *raster; /* NULL: "raster" is {} */
@@ -41,7 +41,7 @@ typedef struct wf_report {
     double trace_s; /* of all threads together, as the others but wall are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
-    bool degraded;             /* frames were held or samples mended */
+    bool degraded;             /* frames were held, or NaN and Inf replaced */
     const char *error;         /* why the run failed; NULL: it did not */
 } wf_report;
 

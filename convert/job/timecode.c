@@ -1,3 +1,4 @@
+/* Timecode: labels to frames and back, with drop frame. */
 #include "convert/job/timecode.h"
 
 #include <stdio.h>

@@ -42,8 +42,8 @@ int wf_timecode_together(wf_rational rate);
 /* The word that EXR (timeCode) and DPX hold: binary coded decimal, from the lowest bits frames,
  * seconds, minutes, hours, a byte each, with bit 6 for drop frame; flags otherwise 0, as
  * OpenEXR's ImfTimeCode.h calls packing for 60-field television, which files use whatever their
- * rate. There is room for 39 frames: from 50 a second on, ST 12-1 counts pairs of frames and
- * bit 15, the field mark, says which of a pair. */
+ * rate. Two bits of tens hold 39 frames: from 50 a second on, ST 12-1 counts pairs of frames
+ * and bit 15, the field mark, says which of a pair. */
 uint32_t wf_timecode_bcd(const wf_timecode *label, wf_rational rate);
 
 #endif

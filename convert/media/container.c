@@ -1,8 +1,11 @@
+/* Completes finished MXF and QuickTime files; MXF here, QuickTime in container_mov.c. */
 #include "convert/media/container.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/base/big_endian.h"
+#include "convert/media/container_mov.h"
 #include "convert/media/klv.h"
 
 #define SET_MOST        8192 /* bytes of a descriptor, which has some hundred */
@@ -90,7 +93,7 @@ static weft_status find_fill(wf_outfile *file, const wf_klv *set, wf_klv *fill, 
 
 /* Moves what stands between a set and the fill item behind it on by `more` bytes, which the
  * fill item gives. */
-static weft_status make_room(wf_outfile *file, const wf_klv *set, const wf_klv *fill,
+static weft_status move_sets(wf_outfile *file, const wf_klv *set, const wf_klv *fill,
                              size_t more, weft_error *err) {
     size_t between = (size_t)(fill->value - set->next), got = 0;
     uint8_t *bytes = malloc(between);
@@ -105,8 +108,8 @@ static weft_status make_room(wf_outfile *file, const wf_klv *set, const wf_klv *
     return status ? status : put_length(file, set->value, length, err);
 }
 
-static weft_status mend_descriptor(wf_outfile *file, const wf_klv *k, const wf_raster *raster,
-                                   weft_error *err) {
+static weft_status complete_descriptor(wf_outfile *file, const wf_klv *k,
+                                       const wf_raster *raster, weft_error *err) {
     uint8_t set[SET_MOST + DOMINANCE_BYTES];
     size_t bytes = (size_t)(k->next - k->value), got;
     if (bytes > SET_MOST) return WEFT_OK;
@@ -119,12 +122,12 @@ static weft_status mend_descriptor(wf_outfile *file, const wf_klv *k, const wf_r
     bool fits;
     status = find_fill(file, k, &fill, &fits, err);
     size_t more = fits ? put_dominance(set, bytes, raster) : 0;
-    if (!status && more) status = make_room(file, k, &fill, more, err);
+    if (!status && more) status = move_sets(file, k, &fill, more, err);
     return status ? status : put_bytes(file, k->value, set, bytes + more, err);
 }
 
-static weft_status mend_mxf(wf_outfile *file, const wf_container_facts *facts,
-                            weft_error *err) {
+static weft_status complete_mxf(wf_outfile *file, const wf_container_facts *facts,
+                                weft_error *err) {
     wf_klv k = {{0}, 0, 0};
     bool end = false;
     weft_status status = WEFT_OK;
@@ -133,15 +136,15 @@ static weft_status mend_mxf(wf_outfile *file, const wf_container_facts *facts,
         status = read_head(file, at, &k, &end, err);
         if (status || end) break;
         if (!wf_klv_is_picture(wf_klv_set_kind(k.key))) continue;
-        status = mend_descriptor(file, &k, facts->raster, err);
+        status = complete_descriptor(file, &k, facts->raster, err);
         if (!status) status = read_head(file, at, &k, &end, err); /* it may be longer now */
     }
     return status;
 }
 
-weft_status wf_container_mend(wf_outfile *file, const wf_container_facts *facts,
-                              weft_error *err) {
-    if (!strncmp(facts->muxer, "mxf", 3)) return mend_mxf(file, facts, err);
-    if (!strcmp(facts->muxer, "mov")) return wf_container_mend_mov(file, facts, err);
+weft_status wf_container_complete(wf_outfile *file, const wf_container_facts *facts,
+                                  weft_error *err) {
+    if (!strncmp(facts->muxer, "mxf", 3)) return complete_mxf(file, facts, err);
+    if (!strcmp(facts->muxer, "mov")) return wf_container_complete_mov(file, facts, err);
     return WEFT_OK;
 }

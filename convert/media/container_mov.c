@@ -1,16 +1,18 @@
-/* QuickTime files of libavformat's, whose moov atom is the last: it is read, copied with what
- * is mended, and written over. Where it grows nothing that follows has to move. */
+/* Completes QuickTime files of libavformat's. Their moov atom is the last: it is read, copied
+ * with what is completed, and written over. Where it grows, nothing follows that has to move.
+ */
+#include "convert/media/container_mov.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/container.h"
-#include "convert/media/klv.h"
+#include "convert/base/big_endian.h"
 
 #define MOOV_MOST       ((int64_t)1 << 30)
 #define ENTRY_BYTES     86 /* of a video's sample description before its extensions */
 #define COMPRESSOR_AT   50
 #define COMPRESSOR_MOST 31
-#define ROOM_BYTES      256 /* that a movie grows by at most */
+#define GROWTH_BYTES    256 /* that a movie grows by at most */
 
 typedef struct atoms {
     const uint8_t *from;
@@ -201,7 +203,7 @@ static weft_status find_movie(wf_outfile *file, int64_t *at, int64_t *bytes, wef
 
 static weft_status rewrite(wf_outfile *file, const wf_container_facts *facts, int64_t at,
                            size_t bytes, weft_error *err) {
-    uint8_t *from = malloc(bytes), *to = malloc(bytes + ROOM_BYTES);
+    uint8_t *from = malloc(bytes), *to = malloc(bytes + GROWTH_BYTES);
     size_t got = 0, beyond = 0;
     uint8_t next;
     weft_status status = from && to ? wf_outfile_read(file, at, from, bytes, &got, err)
@@ -219,8 +221,8 @@ static weft_status rewrite(wf_outfile *file, const wf_container_facts *facts, in
     return status;
 }
 
-weft_status wf_container_mend_mov(wf_outfile *file, const wf_container_facts *facts,
-                                  weft_error *err) {
+weft_status wf_container_complete_mov(wf_outfile *file, const wf_container_facts *facts,
+                                      weft_error *err) {
     int64_t at, bytes = 0;
     weft_status status = find_movie(file, &at, &bytes, err);
     if (!status && bytes > MOOV_MOST) status = malformed(err);

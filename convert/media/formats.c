@@ -1,3 +1,4 @@
+/* Tells what format a picture is by how it begins, and whether it is whole. */
 #include "convert/media/formats.h"
 
 #include <errno.h>
@@ -8,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "convert/media/klv.h"
+#include "convert/base/big_endian.h"
 
 /* A file under examination. */
 typedef struct exam {
@@ -66,7 +67,7 @@ static weft_status examine_png(const exam *x) {
 
 /* ---- JPEG ---- */
 
-/* Decoders fill what is missing with grey. Some writers pad behind the end-of-image marker. */
+/* Decoders fill what is missing with gray. Some writers pad behind the end-of-image marker. */
 static weft_status examine_jpeg(const exam *x) {
     uint8_t tail[1024];
     size_t bytes = x->bytes < sizeof tail ? (size_t)x->bytes : sizeof tail;

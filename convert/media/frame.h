@@ -12,4 +12,9 @@ typedef struct wf_frame {
     int64_t index; /* from 0 in the whole run, chunk or not */
 } wf_frame;
 
+/* Line y of plane p, of codes. */
+static inline const uint16_t *wf_frame_codes(const wf_frame *frame, int p, int y) {
+    return (const uint16_t *)frame->plane[p] + (size_t)y * frame->stride[p];
+}
+
 #endif

@@ -33,9 +33,6 @@ bool wf_klv_is_fill(const uint8_t key[WF_KLV_KEY_BYTES]);
 /* Offset of the value of an item of a set of `bytes` bytes; 0, *length 0: it has none. */
 size_t wf_klv_item(const uint8_t *set, size_t bytes, unsigned tag, size_t *length);
 
-uint64_t wf_big_endian(const uint8_t *bytes, size_t count);
-void wf_put_big_endian(uint8_t *to, uint64_t value, size_t count);
-
 /* Tags of ST 377-1. */
 enum {
     WF_MXF_STORED_LINES = 0x3202,

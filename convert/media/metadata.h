@@ -1,8 +1,6 @@
 #ifndef WF_CONVERT_MEDIA_METADATA_H
 #define WF_CONVERT_MEDIA_METADATA_H
 
-#include <stdio.h>
-
 #include "convert/base/fail.h"
 #include "convert/job/colors.h"
 #include "filters/raster/raster.h"
@@ -38,15 +36,6 @@ typedef struct wf_metadata {
     wf_rational aspect; /* of the picture; {0, 0}: none */
     char pattern[8];    /* "OP1a"; "": no header */
 } wf_metadata;
-
-/* Asks the container: through the libav module, and the parts of MOV and MXF that libav keeps
- * to itself by own readers. Y4M, raw files and pictures are not asked: WEFT_USAGE. */
-weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err);
-
-/* The own readers. What is not well formed ends the reading of it; nothing is read beyond the
- * file. */
-void wf_metadata_mov(FILE *file, wf_metadata *metadata);
-void wf_metadata_mxf(FILE *file, wf_metadata *metadata);
 
 /* wf_libav_metadata, an entry point of the libav module. */
 typedef weft_status wf_libav_metadata_fn(const char *path, wf_metadata *metadata,

@@ -1,8 +1,8 @@
 /* QuickTime's atoms about the picture (QuickTime File Format, and Apple's TN2162). */
 #include <string.h>
 
-#include "convert/media/klv.h"
-#include "convert/media/metadata.h"
+#include "convert/base/big_endian.h"
+#include "convert/media/metadata_mov.h"
 
 #define DEEPEST      8
 #define ENTRY_BYTES  86 /* of a video sample description before its extensions */

@@ -1,8 +1,9 @@
 /* MXF's descriptors (SMPTE ST 377-1): what libavformat reads past. */
 #include <string.h>
 
+#include "convert/base/big_endian.h"
 #include "convert/media/klv.h"
-#include "convert/media/metadata.h"
+#include "convert/media/metadata_mxf.h"
 
 #define SET_MOST     8192
 #define SETS_MOST    4096 /* triplets of a header before its essence */

@@ -1,3 +1,4 @@
+/* Reads the header of a Y4M stream. */
 #include "convert/media/y4m.h"
 
 #include <stdio.h>

@@ -1,8 +1,23 @@
 /* One EXR chunk to samples: deflated ones by libdeflate, the others by OpenEXRCore. */
+#include "convert/read/chunk.h"
+
 #include <libdeflate.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "convert/read/reader.h"
+#include "convert/base/reserve.h"
+#include "convert/read/source_exr.h"
+
+bool wf_chunk_decoder_init(wf_chunk_decoder *decoder) {
+    *decoder = (wf_chunk_decoder){.ops = wf_unzip_ops_best(),
+                                  .inflate = libdeflate_alloc_decompressor()};
+    return decoder->inflate;
+}
+
+void wf_chunk_decoder_free(wf_chunk_decoder *decoder) {
+    if (decoder->inflate) libdeflate_free_decompressor(decoder->inflate);
+    free(decoder->inflated);
+}
 
 static weft_status damaged(const wf_subframe *s, const wf_chunk *chunk, const char *how,
                            weft_error *err) {
@@ -15,15 +30,15 @@ static size_t chunk_bytes(const wf_subframe *s, const wf_chunk *chunk) {
            (size_t)(chunk->place.y1 - chunk->place.y0) * s->layout.pixel_bytes;
 }
 
-static weft_status decode_zip(wf_reader *r, const wf_subframe *s, const wf_chunk *chunk,
+static weft_status decode_zip(wf_chunk_decoder *d, const wf_subframe *s, const wf_chunk *chunk,
                               const uint8_t *packed, uint8_t *out, weft_error *err) {
     size_t bytes = chunk_bytes(s, chunk);
-    if (!wf_room(&r->inflated, &r->inflated_room, bytes))
+    if (!wf_reserve(&d->inflated, &d->inflated_capacity, bytes))
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to inflate a chunk", s->path);
-    if (libdeflate_zlib_decompress(r->inflate, packed, (size_t)chunk->info.packed_size,
-                                   r->inflated, bytes, NULL) != LIBDEFLATE_SUCCESS)
+    if (libdeflate_zlib_decompress(d->inflate, packed, (size_t)chunk->info.packed_size,
+                                   d->inflated, bytes, NULL) != LIBDEFLATE_SUCCESS)
         return damaged(s, chunk, "it does not inflate to its size", err);
-    r->suspect |= r->ops->merge(out, r->inflated, bytes);
+    d->suspect |= d->ops->merge(out, d->inflated, bytes);
     return WEFT_OK;
 }
 
@@ -60,39 +75,41 @@ static exr_result_t run_pipeline(exr_decode_pipeline_t *pipeline, const wf_subfr
     return result;
 }
 
-static weft_status decode_by_core(wf_reader *r, const wf_subframe *s, const wf_chunk *chunk,
-                                  const uint8_t *packed, uint8_t *out, weft_error *err) {
+static weft_status decode_by_core(wf_chunk_decoder *d, const wf_subframe *s,
+                                  const wf_chunk *chunk, const uint8_t *packed, uint8_t *out,
+                                  weft_error *err) {
     exr_decode_pipeline_t pipeline = {0};
     exr_result_t result = exr_decoding_initialize(s->exr, s->part, &chunk->info, &pipeline);
     if (result == EXR_ERR_SUCCESS) result = run_pipeline(&pipeline, s, chunk, packed, out);
     exr_decoding_destroy(s->exr, &pipeline);
-    r->suspect = true;
+    d->suspect = true;
     return result == EXR_ERR_SUCCESS ? WEFT_OK : damaged(s, chunk, wf_exr_trouble(result), err);
 }
 
 /* A deflated chunk that came out just as long as its samples should have been stored as it was,
  * but OpenEXRCore 3.1 writes the deflated bytes. Samples that are a zlib stream, with the right
  * checksum at its end, do not happen. */
-static bool inflates_to_its_own_size(wf_reader *r, const wf_subframe *s, const wf_chunk *chunk,
-                                     const uint8_t *packed, uint8_t *out) {
+static bool inflates_to_its_own_size(wf_chunk_decoder *d, const wf_subframe *s,
+                                     const wf_chunk *chunk, const uint8_t *packed,
+                                     uint8_t *out) {
     exr_compression_t how = s->layout.compression;
     bool zip = how == EXR_COMPRESSION_ZIP || how == EXR_COMPRESSION_ZIPS;
     bool headed = chunk->info.packed_size > 2 && (packed[0] & 15) == 8 &&
                   (packed[0] * 256 + packed[1]) % 31 == 0;
-    return zip && headed && decode_zip(r, s, chunk, packed, out, NULL) == WEFT_OK;
+    return zip && headed && decode_zip(d, s, chunk, packed, out, NULL) == WEFT_OK;
 }
 
-weft_status wf_chunk_decode(wf_reader *r, const wf_subframe *s, const wf_chunk *chunk,
+weft_status wf_chunk_decode(wf_chunk_decoder *d, const wf_subframe *s, const wf_chunk *chunk,
                             const uint8_t *packed, uint8_t *out, weft_error *err) {
     exr_compression_t how = s->layout.compression;
     if (chunk->info.packed_size == chunk_bytes(s, chunk)) {
-        if (inflates_to_its_own_size(r, s, chunk, packed, out)) return WEFT_OK;
+        if (inflates_to_its_own_size(d, s, chunk, packed, out)) return WEFT_OK;
         memcpy(out, packed, chunk_bytes(s, chunk)); /* stored as it is: it would not shrink */
-        r->suspect = true;
+        d->suspect = true;
         return WEFT_OK;
     }
     if (how == EXR_COMPRESSION_NONE) return damaged(s, chunk, "it is too short", err);
     if (how == EXR_COMPRESSION_ZIP || how == EXR_COMPRESSION_ZIPS)
-        return decode_zip(r, s, chunk, packed, out, err);
-    return decode_by_core(r, s, chunk, packed, out, err);
+        return decode_zip(d, s, chunk, packed, out, err);
+    return decode_by_core(d, s, chunk, packed, out, err);
 }

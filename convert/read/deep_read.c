@@ -1,3 +1,6 @@
+/* Reads sample buffers: deep scanline EXR, whose chunks are inflated here, a line at a time. */
+#include "convert/read/deep_read.h"
+
 #include <inttypes.h>
 #include <libdeflate.h>
 #include <math.h>
@@ -5,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/deep.h"
-#include "convert/read/reader.h"
+#include "convert/base/reserve.h"
+#include "convert/read/source_exr.h"
 #include "convert/read/unzip.h"
 #include "filters/base/half.h"
 
@@ -209,8 +212,8 @@ static bool unpack(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *in,
                    size_t in_bytes, size_t bytes, const uint8_t **out) {
     *out = in;
     if (f->compression == EXR_COMPRESSION_NONE || in_bytes == bytes) return in_bytes == bytes;
-    if (!wf_room(&b->inflated, &b->inflated_room, bytes + 1) ||
-        !wf_room(&b->merged, &b->merged_room, bytes + 64))
+    if (!wf_reserve(&b->inflated, &b->inflated_capacity, bytes + 1) ||
+        !wf_reserve(&b->merged, &b->merged_capacity, bytes + 64))
         return false;
     bool good;
     if (f->compression == EXR_COMPRESSION_RLE) {
@@ -246,7 +249,7 @@ static float value_at(const uint8_t *from, exr_pixel_type_t type, size_t i) {
 static bool take_channels(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *raw,
                           size_t samples) {
     size_t need = WF_DEEP_CHANNELS * (samples + 1) * sizeof(float);
-    if (!wf_room(&b->floats, &b->floats_room, need)) return false;
+    if (!wf_reserve(&b->floats, &b->floats_capacity, need)) return false;
     for (int w = 0; w < WF_DEEP_CHANNELS; w++)
         b->line.channel[w] = f->has[w] ? b->floats + (size_t)w * (samples + 1) : NULL;
     for (int c = 0; c < f->count; c++) {
@@ -291,7 +294,8 @@ static weft_status read_chunk(const wf_deep_file *f, wf_deep_buffers *b, int y,
         info.packed_size > (uint64_t)1 << 32 || info.unpacked_size > (uint64_t)1 << 32)
         return damaged(f, y, "its sizes are not those of samples", err);
     size_t data = (size_t)info.packed_size;
-    if (!wf_room(&b->packed, &b->packed_room, (size_t)info.sample_count_table_size + data + 1))
+    if (!wf_reserve(&b->packed, &b->packed_capacity,
+                    (size_t)info.sample_count_table_size + data + 1))
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
     uint8_t *packed = b->packed + info.sample_count_table_size;
     if (exr_read_deep_chunk(f->exr, 0, &info, packed, b->packed))

@@ -1,3 +1,4 @@
+/* Chooses the channels of an EXR that are the picture. */
 #include "convert/read/layers.h"
 
 #include <stdio.h>

@@ -1,3 +1,5 @@
+/* Replaces samples that are not finite, so that one bad pixel of a renderer does not spread
+ * over every pixel whose aperture reaches it. */
 #include "convert/read/nan_fix.h"
 
 #include <math.h>
@@ -11,18 +13,18 @@ static float sample_at(const wf_rows *rows, int channel, int x, int y) {
     return ((const float *)rows->plane[channel])[at];
 }
 
-static const wf_rows *rows_with(const wf_mend *m, int y) {
-    if (y < m->rows.y0) return y >= m->above.y0 && y < m->above.y1 ? &m->above : NULL;
-    if (y >= m->rows.y1) return y >= m->below.y0 && y < m->below.y1 ? &m->below : NULL;
-    return &m->rows;
+static const wf_rows *rows_with(const wf_nan_fixer *f, int y) {
+    if (y < f->rows.y0) return y >= f->above.y0 && y < f->above.y1 ? &f->above : NULL;
+    if (y >= f->rows.y1) return y >= f->below.y0 && y < f->below.y1 ? &f->below : NULL;
+    return &f->rows;
 }
 
-/* Mean of the finite neighbours, as they were before any was mended. */
-static float box3(const wf_mend *m, int channel, int x, int y) {
+/* Mean of the finite neighbors, as they were before any was replaced. */
+static float box3(const wf_nan_fixer *f, int channel, int x, int y) {
     double sum = 0;
     int count = 0;
     for (int j = y - 1; j <= y + 1; j++) {
-        const wf_rows *rows = rows_with(m, j);
+        const wf_rows *rows = rows_with(f, j);
         for (int i = x - 1; rows && i <= x + 1; i++) {
             if (i < rows->x0 || i >= rows->x1) continue;
             float value = sample_at(rows, channel, i, j);
@@ -32,28 +34,28 @@ static float box3(const wf_mend *m, int channel, int x, int y) {
     return count ? (float)(sum / count) : 0;
 }
 
-static bool mend_pixel(const wf_mend *m, int x, int y, float *const plane[4], size_t at) {
-    bool mended = false;
-    for (int c = 0; c < m->rows.channels; c++) {
-        float value = sample_at(&m->rows, c, x, y);
+static bool fix_pixel(const wf_nan_fixer *f, int x, int y, float *const plane[4], size_t at) {
+    bool fixed = false;
+    for (int c = 0; c < f->rows.channels; c++) {
+        float value = sample_at(&f->rows, c, x, y);
         bool fine = isfinite(value);
-        plane[c][at] = fine ? value : m->how == WF_NAN_BOX3 ? box3(m, c, x, y) : 0;
-        mended |= !fine;
+        plane[c][at] = fine ? value : f->how == WF_NAN_BOX3 ? box3(f, c, x, y) : 0;
+        fixed |= !fine;
     }
-    return mended;
+    return fixed;
 }
 
-int64_t wf_mend_rows(const wf_mend *m, float *out) {
-    const wf_rows *r = &m->rows;
+int64_t wf_nan_fix_rows(const wf_nan_fixer *f, float *out) {
+    const wf_rows *r = &f->rows;
     size_t width = (size_t)(r->x1 - r->x0), plane_samples = width * (size_t)(r->y1 - r->y0);
     float *const plane[4] = {out, out + plane_samples, out + 2 * plane_samples,
                              out + 3 * plane_samples};
-    int64_t mended = 0;
+    int64_t fixed = 0;
     for (int y = r->y0; y < r->y1; y++)
         for (int x = r->x0; x < r->x1; x++)
-            mended +=
-                mend_pixel(m, x, y, plane, (size_t)(y - r->y0) * width + (size_t)(x - r->x0));
-    return mended;
+            fixed +=
+                fix_pixel(f, x, y, plane, (size_t)(y - r->y0) * width + (size_t)(x - r->x0));
+    return fixed;
 }
 
 void wf_floats_of_halves(float *out, const void *halves, size_t count) {
@@ -65,7 +67,7 @@ void wf_floats_of_halves(float *out, const void *halves, size_t count) {
     }
 }
 
-bool wf_find_odd(const wf_rows *r, int *x, int *y) {
+bool wf_find_not_finite(const wf_rows *r, int *x, int *y) {
     for (*y = r->y0; *y < r->y1; ++*y)
         for (*x = r->x0; *x < r->x1; ++*x)
             for (int c = 0; c < r->channels; c++)

@@ -1,3 +1,4 @@
+/* Reads a picture whole, for the textures of scenes. */
 #include "convert/read/picture.h"
 
 #include <math.h>

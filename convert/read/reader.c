@@ -1,32 +1,18 @@
-/* Rows of an open picture: chunks read, compared with the last ones, decoded, mended, handed
- * out. */
+/* Rows of an open picture: its chunks are read, compared with the last ones and decoded, NaN
+ * and Inf are replaced, and the rows are handed out. */
 #include "convert/read/reader.h"
 
-#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/base/reserve.h"
 #include "convert/read/nan_fix.h"
-
-bool wf_room(void *pointer, size_t *room, size_t bytes) {
-    void **block = pointer;
-    if (bytes <= *room && *block) return true;
-    free(*block);
-    *room = (bytes + 4095) / 4096 * 4096;
-    *block = aligned_alloc(64, *room);
-    if (!*block) *room = 0;
-    return *block != NULL;
-}
+#include "convert/read/source_exr.h"
 
 weft_status wf_reader_new(const wf_source_options *options, wf_reader **out, weft_error *err) {
-    wf_reader *r = calloc(1, sizeof *r);
-    if (r) {
-        r->options = *options;
-        r->ops = wf_unzip_ops_best();
-        r->inflate = libdeflate_alloc_decompressor();
-    }
-    *out = r;
-    if (r && r->inflate) return WEFT_OK;
+    wf_reader *r = *out = calloc(1, sizeof *r);
+    if (r) r->options = *options;
+    if (r && wf_chunk_decoder_init(&r->decoder)) return WEFT_OK;
     wf_reader_free(r);
     *out = NULL;
     return wf_fail(err, WEFT_NO_MEMORY, "no memory for a reader");
@@ -40,11 +26,10 @@ static void free_packed(wf_packed *packed) {
 void wf_reader_free(wf_reader *r) {
     if (!r) return;
     wf_reader_free(r->neighbor);
-    if (r->inflate) libdeflate_free_decompressor(r->inflate);
+    wf_chunk_decoder_free(&r->decoder);
     free_packed(&r->kept);
     free_packed(&r->ahead);
     free(r->native);
-    free(r->inflated);
     free(r->tile);
     free(r->plain);
     free(r->edges);
@@ -97,21 +82,21 @@ static weft_status read_chunk(wf_packed *p, const wf_subframe *s, int x, int y,
 }
 
 /* Room for the chunks of lines first <= y < end, at most as big as their samples. */
-static bool packed_room(wf_packed *p, const wf_subframe *s, int first, int end) {
+static bool reserve_packed(wf_packed *p, const wf_subframe *s, int first, int end) {
     const wf_exr_layout *l = &s->layout;
     size_t width = (size_t)(l->data.x1 - l->data.x0);
     int across =
         l->tile_width ? (int)((width + (size_t)l->tile_width - 1) / (size_t)l->tile_width) : 1;
     int count = across * ((end - first + l->chunk_lines - 1) / l->chunk_lines);
-    if (count > p->chunk_room) {
+    if (count > p->chunk_capacity) {
         wf_chunk *grown = realloc(p->chunk, (size_t)count * sizeof *grown);
         if (!grown) return false;
         p->chunk = grown;
-        p->chunk_room = count;
+        p->chunk_capacity = count;
     }
     p->count = 0;
     p->used = 0;
-    return wf_room(&p->bytes, &p->room, width * (size_t)(end - first) * l->pixel_bytes);
+    return wf_reserve(&p->bytes, &p->capacity, width * (size_t)(end - first) * l->pixel_bytes);
 }
 
 /* The line where the chunk that holds y begins. */
@@ -125,7 +110,7 @@ static weft_status read_ahead(wf_reader *r, const wf_subframe *s, int y0, int y1
     int width = l->tile_width ? l->tile_width : l->data.x1 - l->data.x0;
     int top = chunk_top(l, y0), end = least(chunk_top(l, y1 - 1) + l->chunk_lines, l->data.y1);
     r->ahead_of = NULL;
-    if (!packed_room(&r->ahead, s, top, end)) return no_memory(s, err);
+    if (!reserve_packed(&r->ahead, s, top, end)) return no_memory(s, err);
     for (int y = top; y < end; y += l->chunk_lines)
         for (int x = l->data.x0; x < l->data.x1; x += width) {
             weft_status status = read_chunk(&r->ahead, s, x, y, err);
@@ -187,10 +172,10 @@ static weft_status decode_chunk(wf_reader *r, const wf_subframe *s, const wf_chu
     r->counts.chunks_decoded++;
     if (!l->tile_width)
         return wf_chunk_decode(
-            r, s, chunk, packed,
+            &r->decoder, s, chunk, packed,
             r->native + (size_t)(chunk->place.y0 - r->native_y0) * line_bytes, err);
-    if (!wf_room(&r->tile, &r->tile_room, tile_bytes)) return no_memory(s, err);
-    weft_status status = wf_chunk_decode(r, s, chunk, packed, r->tile, err);
+    if (!wf_reserve(&r->tile, &r->tile_capacity, tile_bytes)) return no_memory(s, err);
+    weft_status status = wf_chunk_decode(&r->decoder, s, chunk, packed, r->tile, err);
     if (!status) spread_tile(r, s, chunk);
     return status;
 }
@@ -211,8 +196,8 @@ static weft_status decode_ahead(wf_reader *r, const wf_subframe *s, int y0, int 
         bytes += (size_t)r->ahead.chunk[i].info.unpacked_size;
     *changed = !compare;
     r->held = false;
-    r->suspect = (compare && r->suspect) || !all_half(l, s);
-    if (!wf_room(&r->native, &r->native_room, bytes)) return no_memory(s, err);
+    r->decoder.suspect = (compare && r->decoder.suspect) || !all_half(l, s);
+    if (!wf_reserve(&r->native, &r->native_capacity, bytes)) return no_memory(s, err);
     r->native_y0 = chunk_top(l, y0);
     for (int i = 0; i < r->ahead.count; i++) {
         if (compare && same_chunk(&r->kept, &r->ahead, i)) {
@@ -259,8 +244,8 @@ static bool lies_well(const wf_exr_layout *l, exr_pixel_type_t type, size_t widt
 static bool convert_planes(wf_reader *r, const wf_exr_layout *l, const uint8_t *lines,
                            wf_rows *rows) {
     size_t width = (size_t)(rows->x1 - rows->x0), line_bytes = width * l->pixel_bytes;
-    if (!wf_room(&r->plain, &r->plain_room,
-                 (size_t)rows->channels * plane_samples(rows) * sizeof(float)))
+    if (!wf_reserve(&r->plain, &r->plain_capacity,
+                    (size_t)rows->channels * plane_samples(rows) * sizeof(float)))
         return false;
     float *out = r->plain;
     for (int c = 0; c < rows->channels; c++)
@@ -312,7 +297,7 @@ static weft_status raw_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, 
     *changed = true;
     if (!s->exr) {
         r->held = false;
-        r->suspect = true;
+        r->decoder.suspect = true;
         whole_rows(s, y0, y1, &r->rows);
         return WEFT_OK;
     }
@@ -323,22 +308,23 @@ static weft_status raw_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, 
     return native_rows(r, s, y0, y1, &r->rows) ? WEFT_OK : no_memory(s, err);
 }
 
-/* ---- Mending ---- */
+/* ---- NaN and Inf ---- */
 
-static bool any_odd(const wf_reader *r, const wf_rows *rows) {
+static bool any_not_finite(const wf_reader *r, const wf_rows *rows) {
     size_t width = (size_t)(rows->x1 - rows->x0);
     for (int c = 0; c < rows->channels; c++)
         for (int y = rows->y0; y < rows->y1; y++) {
             size_t at = (size_t)(y - rows->y0) * rows->line_stride;
-            bool odd = rows->type == WF_HALF
-                           ? r->ops->odd_halves((const uint16_t *)rows->plane[c] + at, width)
-                           : r->ops->odd_floats((const float *)rows->plane[c] + at, width);
+            bool odd =
+                rows->type == WF_HALF
+                    ? r->decoder.ops->odd_halves((const uint16_t *)rows->plane[c] + at, width)
+                    : r->decoder.ops->odd_floats((const float *)rows->plane[c] + at, width);
             if (odd) return true;
         }
     return false;
 }
 
-/* One row beyond those to be mended, copied to `to`; none where the picture ends. */
+/* One row beyond those that are fixed, copied to `to`; none where the picture ends. */
 static weft_status edge_row(wf_reader *r, const wf_subframe *s, int y, wf_rows *edge, float *to,
                             weft_error *err) {
     *edge = (wf_rows){.y0 = y, .y1 = y};
@@ -355,21 +341,23 @@ static weft_status edge_row(wf_reader *r, const wf_subframe *s, int y, wf_rows *
     return WEFT_OK;
 }
 
-static weft_status read_edges(wf_reader *r, const wf_subframe *s, wf_mend *mend,
+static weft_status read_edges(wf_reader *r, const wf_subframe *s, wf_nan_fixer *fixer,
                               weft_error *err) {
     wf_source_options options = r->options;
     options.nan_fix = WF_NAN_NONE;
-    size_t row = (size_t)mend->rows.channels * (size_t)(mend->rows.x1 - mend->rows.x0);
-    if (!wf_room(&r->edges, &r->edges_room, 2 * row * sizeof(float))) return no_memory(s, err);
+    size_t row = (size_t)fixer->rows.channels * (size_t)(fixer->rows.x1 - fixer->rows.x0);
+    if (!wf_reserve(&r->edges, &r->edges_capacity, 2 * row * sizeof(float)))
+        return no_memory(s, err);
     weft_status status = r->neighbor ? WEFT_OK : wf_reader_new(&options, &r->neighbor, err);
-    if (!status) status = edge_row(r, s, mend->rows.y0 - 1, &mend->above, r->edges, err);
-    if (!status) status = edge_row(r, s, mend->rows.y1, &mend->below, r->edges + row, err);
+    if (!status) status = edge_row(r, s, fixer->rows.y0 - 1, &fixer->above, r->edges, err);
+    if (!status) status = edge_row(r, s, fixer->rows.y1, &fixer->below, r->edges + row, err);
     return status;
 }
 
-static weft_status refuse_odd(const wf_subframe *s, const wf_rows *rows, weft_error *err) {
+static weft_status refuse_not_finite(const wf_subframe *s, const wf_rows *rows,
+                                     weft_error *err) {
     int x, y;
-    wf_find_odd(rows, &x, &y);
+    wf_find_not_finite(rows, &x, &y);
     return wf_fail(
         err, WEFT_FAILED,
         "%s: the sample at pixel %d of line %d is NaN or infinite; render it again, or let "
@@ -378,20 +366,21 @@ static weft_status refuse_odd(const wf_subframe *s, const wf_rows *rows, weft_er
 }
 
 /* Replaces what is not finite; the rows as decoded stay what later chunks are compared with. */
-static weft_status mend(wf_reader *r, const wf_subframe *s, weft_error *err) {
-    wf_mend work = {.rows = r->rows, .how = r->options.nan_fix};
-    if (work.how == WF_NAN_ERROR) return refuse_odd(s, &r->rows, err);
-    weft_status status = work.how == WF_NAN_BOX3 ? read_edges(r, s, &work, err) : WEFT_OK;
+static weft_status fix_nan(wf_reader *r, const wf_subframe *s, weft_error *err) {
+    wf_nan_fixer fixer = {.rows = r->rows, .how = r->options.nan_fix};
+    if (fixer.how == WF_NAN_ERROR) return refuse_not_finite(s, &r->rows, err);
+    weft_status status = fixer.how == WF_NAN_BOX3 ? read_edges(r, s, &fixer, err) : WEFT_OK;
     if (status) return status;
     float *out = NULL;
-    size_t room = 0;
-    if (!wf_room(&out, &room, (size_t)r->rows.channels * plane_samples(&r->rows) * sizeof *out))
+    size_t capacity = 0;
+    if (!wf_reserve(&out, &capacity,
+                    (size_t)r->rows.channels * plane_samples(&r->rows) * sizeof *out))
         return no_memory(s, err);
-    r->mended = wf_mend_rows(&work, out);
+    r->fixed = wf_nan_fix_rows(&fixer, out);
     point_at(&r->rows, out);
     free(r->plain); /* only now: the rows may have been in it */
     r->plain = out;
-    r->plain_room = room;
+    r->plain_capacity = capacity;
     return WEFT_OK;
 }
 
@@ -400,13 +389,14 @@ weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, w
     bool changed;
     weft_status status = raw_rows(r, s, y0, y1, &changed, err);
     if (!status && changed) {
-        r->mended = 0;
-        if (r->suspect && r->options.nan_fix != WF_NAN_NONE && any_odd(r, &r->rows))
-            status = mend(r, s, err);
+        r->fixed = 0;
+        if (r->decoder.suspect && r->options.nan_fix != WF_NAN_NONE &&
+            any_not_finite(r, &r->rows))
+            status = fix_nan(r, s, err);
     }
     r->held = !status && s->exr;
     if (status) return status;
-    r->counts.nan_fixed += r->mended;
+    r->counts.nan_fixed += r->fixed;
     *rows = r->rows;
     return WEFT_OK;
 }
@@ -421,7 +411,7 @@ weft_status wf_reader_same(wf_reader *r, const wf_subframe *s, int y0, int y1, b
         if (!same_chunk(&r->kept, &r->ahead, i)) return WEFT_OK;
     r->ahead_of = NULL;
     r->counts.chunks_reused += r->ahead.count;
-    r->counts.nan_fixed += r->mended;
+    r->counts.nan_fixed += r->fixed;
     *same = true;
     return WEFT_OK;
 }

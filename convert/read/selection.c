@@ -1,3 +1,4 @@
+/* Which numbered files a job takes, and which of them are missing. */
 #include "convert/read/selection.h"
 
 #include <inttypes.h>

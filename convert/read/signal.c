@@ -1,3 +1,4 @@
+/* Frames of any finished video as Y'CbCr for every pixel and as light on a display. */
 #include "convert/read/signal.h"
 
 #include <stdlib.h>
@@ -84,17 +85,17 @@ weft_status wf_signal_new(const wf_signals *signals, wf_signal **out, weft_error
     const wf_video_info *info = &signals->info;
     size_t samples = (size_t)info->width_px * (size_t)info->lines;
     wf_signal *s = calloc(1, sizeof *s);
-    float *room = malloc(4 * samples * sizeof *room);
-    if (!s || !room) {
+    float *planes = malloc(4 * samples * sizeof *planes);
+    if (!s || !planes) {
         free(s);
-        free(room);
+        free(planes);
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame of %dx%d", info->width_px,
                        info->lines);
     }
     s->width_px = info->width_px;
     s->lines = info->lines;
-    s->light = room;
-    for (int p = 0; p < 3; p++) s->ycbcr[p] = room + (size_t)(p + 1) * samples;
+    s->light = planes;
+    for (int p = 0; p < 3; p++) s->ycbcr[p] = planes + (size_t)(p + 1) * samples;
     *out = s;
     return WEFT_OK;
 }

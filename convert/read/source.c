@@ -10,19 +10,7 @@
 #include "convert/base/module.h"
 #include "convert/media/formats.h"
 #include "convert/media/oiio/oiio.h"
-#include "convert/read/subframe.h"
-
-const wf_image_info *wf_subframe_info(const wf_subframe *subframe) {
-    return &subframe->info;
-}
-
-void wf_subframe_close(wf_subframe *s) {
-    if (!s) return;
-    if (s->exr) exr_finish(&s->exr);
-    free(s->whole);
-    free(s->path);
-    free(s);
-}
+#include "convert/read/source_exr.h"
 
 /* ---- Whole pictures ---- */
 

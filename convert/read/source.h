@@ -46,7 +46,7 @@ const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
 weft_status wf_reader_new(const wf_source_options *options, wf_reader **out, weft_error *err);
 void wf_reader_free(wf_reader *reader);
 
-/* Reads rows y0 <= y < y1 (inside the data window) with NaN and Inf mended as nan_fix says
+/* Reads rows y0 <= y < y1 (inside the data window) with NaN and Inf replaced as nan_fix says
  * (box3 looks at rows beyond y0 and y1 where it has to). Chunks whose packed bytes equal those
  * of the reader's previous result for the same rows are reused, not inflated. Errors name the
  * file and the line. */

@@ -1,11 +1,11 @@
 /* Opening EXR files: everything that can be known and checked without decoding a pixel. */
+#include "convert/read/source_exr.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#include "convert/read/subframe.h"
 
 /* Enough for any picture; what a file really may cost is checked against its own length and
  * --max-memory. */

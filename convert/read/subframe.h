@@ -35,15 +35,4 @@ struct wf_subframe {
     float *whole;      /* [channels][height][width] of the data window */
 };
 
-/* Opens an EXR; *needs_module means that its compression must be read by other means, with
- * everything but the pixels known. */
-weft_status wf_exr_open(wf_subframe *subframe, const wf_source_options *options, int part,
-                        bool *needs_module, weft_error *err);
-
-/* Whether the file starts like an EXR. False too if it cannot be read. */
-bool wf_is_exr(const char *path);
-
-/* What OpenEXRCore's status means, for people. */
-const char *wf_exr_trouble(exr_result_t result);
-
 #endif

@@ -1,3 +1,4 @@
+/* The composite system that goes with a raster. */
 #include "convert/read/television.h"
 
 bool wf_television_of(const wf_raster *raster, wf_tv *tv) {

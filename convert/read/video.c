@@ -1,3 +1,4 @@
+/* Opens finished video of any kind, and settles which raster it is. */
 #include "convert/read/video.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 #include "convert/base/names.h"
 #include "convert/media/y4m.h"
 #include "convert/read/sequence.h"
-#include "convert/read/subframe.h"
+#include "convert/read/source_exr.h"
 #include "convert/read/video_kinds.h"
 
 /* ---- Which raster it is ---- */

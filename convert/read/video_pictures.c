@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "convert/read/sequence.h"
-#include "convert/read/subframe.h"
+#include "convert/read/source_exr.h"
 #include "convert/read/video_kinds.h"
 #include "filters/base/half.h"
 

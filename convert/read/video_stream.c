@@ -35,8 +35,8 @@ static weft_status open_file(wf_video *v, weft_error *err) {
     return s->file ? WEFT_OK : failed(v, err);
 }
 
-/* Room for a frame's bytes and a line's codes. */
-static weft_status make_room(wf_video *v, weft_error *err) {
+/* Memory for a frame's bytes and a line's codes. */
+static weft_status make_buffers(wf_video *v, weft_error *err) {
     stream *s = v->state;
     size_t width = (size_t)v->info.width_px + 6; /* a whole group of v210 at the end */
     s->bytes = malloc(s->frame_bytes);
@@ -114,7 +114,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
                               .top_first = h->order == 't',
                               .rate = h->rate,
                               .aspect = h->aspect};
-    return make_room(v, err);
+    return make_buffers(v, err);
 }
 
 /* Lines of a plane: one or two bytes a code. */
@@ -224,7 +224,7 @@ static weft_status raw_open(wf_video *v, wf_video_label *label, weft_error *err)
     s->frame_bytes = s->line_bytes * (size_t)r->lines;
     *label = (wf_video_label){.scan_known = true};
     status = raw_count(v, err);
-    return status ? status : make_room(v, err);
+    return status ? status : make_buffers(v, err);
 }
 
 static weft_status raw_next(wf_video *v, bool *more, weft_error *err) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/deep.h"
+#include "convert/read/deep_read.h"
 #include "convert/run/dry_run.h"
 #include "convert/run/gathering.h"
 

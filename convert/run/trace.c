@@ -9,7 +9,7 @@
 
 #include "convert/base/pattern.h"
 #include "convert/base/values.h"
-#include "convert/media/deep.h"
+#include "convert/write/deep_write.h"
 #include "convert/run/dry_run.h"
 #include "convert/run/gathering.h"
 #include "convert/run/render.h"

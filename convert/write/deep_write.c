@@ -1,3 +1,6 @@
+/* Writes sample buffers: deep scanline EXR, a line a chunk, deflated here by any thread. */
+#include "convert/write/deep_write.h"
+
 #include <libdeflate.h>
 #include <openexr.h>
 #include <stdlib.h>
@@ -5,7 +8,6 @@
 #include <unistd.h>
 
 #include "convert/base/outplace.h"
-#include "convert/media/deep.h"
 
 /* OpenEXRCore puts the file together; it says nothing of writes that fail, which are therefore
  * noted here. */
@@ -43,8 +45,8 @@ static void split(const uint8_t *from, size_t count, uint8_t *to) {
 static bool deflate(struct libdeflate_compressor *how, uint8_t *raw, size_t count,
                     uint8_t **out, size_t *out_bytes) {
     uint8_t *merged = malloc(count + 1), *packed = malloc(count + 1);
-    bool room = merged && packed;
-    if (room) {
+    bool enough = merged && packed;
+    if (enough) {
         split(raw, count, merged);
         *out_bytes =
             count > 1 ? libdeflate_zlib_compress(how, merged, count, packed, count - 1) : 0;
@@ -54,9 +56,9 @@ static bool deflate(struct libdeflate_compressor *how, uint8_t *raw, size_t coun
         }
     }
     free(merged);
-    if (!room) free(packed);
-    *out = room ? packed : NULL;
-    return room;
+    if (!enough) free(packed);
+    *out = enough ? packed : NULL;
+    return enough;
 }
 
 weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *out,

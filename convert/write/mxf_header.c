@@ -10,6 +10,14 @@ const wf_ul wf_mxf_op1a = WF_UL_LABEL(1, 0x0d01020101010900); /* several tracks,
 
 /* ---- Identifiers ---- */
 
+uint32_t wf_mxf_picture_number(void) {
+    return 0x15010201;
+}
+
+uint32_t wf_mxf_sound_number(int tracks, int track) {
+    return 0x16000100 | (uint32_t)tracks << 16 | (uint32_t)(track + 1);
+}
+
 /* The sets there is one of, and where the numbers of the others begin. */
 enum {
     PREFACE,

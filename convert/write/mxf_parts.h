@@ -1,7 +1,7 @@
 #ifndef WF_CONVERT_WRITE_MXF_PARTS_H
 #define WF_CONVERT_WRITE_MXF_PARTS_H
 
-#include "convert/media/mxf_klv.h"
+#include "convert/write/mxf_klv.h"
 #include "convert/write/mxf.h"
 
 /* What the parts of the MXF writer share. */

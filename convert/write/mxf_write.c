@@ -43,7 +43,7 @@ static int64_t samples_before(const wf_mxf *m, int64_t n) {
 }
 
 /* Elements end in a fill item that makes them all equally long, so there is always one. */
-static size_t element_room(size_t value_bytes) {
+static size_t element_bytes(size_t value_bytes) {
     const size_t key_and_length = 24;
     return on_grid(key_and_length + value_bytes + WF_KLV_FILL_LEAST);
 }
@@ -55,16 +55,8 @@ static size_t unit_bytes(const wf_mxf *m) {
 static void plan_sizes(wf_mxf *m) {
     wf_rational rate = m->options.raster->frame_rate;
     size_t most_samples = (size_t)(WF_MXF_SAMPLE_RATE * rate.den / rate.num) + 1;
-    m->picture_bytes = element_room(m->options.frame_bytes);
-    m->sound_bytes = element_room(most_samples * WF_MXF_SAMPLE_BYTES);
-}
-
-uint32_t wf_mxf_picture_number(void) {
-    return 0x15010201;
-}
-
-uint32_t wf_mxf_sound_number(int tracks, int track) {
-    return 0x16000100 | (uint32_t)tracks << 16 | (uint32_t)(track + 1);
+    m->picture_bytes = element_bytes(m->options.frame_bytes);
+    m->sound_bytes = element_bytes(most_samples * WF_MXF_SAMPLE_BYTES);
 }
 
 /* ---- Writing ---- */
@@ -134,7 +126,7 @@ static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err)
 }
 
 /* Key and length (ST 379 allows 4 to 9 bytes; frames of 2160 lines need more than three) and,
- * after the value, what fills the element up to its room. */
+ * after the value, what fills the element up to the bytes that it has. */
 static void put_element_head(wf_bytes *b, uint32_t number, size_t value_bytes) {
     wf_bytes_ul(b, (wf_ul)ELEMENT(number));
     wf_bytes_number(b, 8, (uint64_t)0x87 << 56 | value_bytes);

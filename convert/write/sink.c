@@ -105,10 +105,6 @@ wf_sink_size wf_output_size(const wf_output *output, const wf_output_options *op
     return output->ops->size ? output->ops->size(options, frames) : (wf_sink_size){0};
 }
 
-int wf_output_files(const wf_output_options *options) {
-    return options->separate_fields ? 2 : 1;
-}
-
 bool wf_output_present(const wf_output_kind *kind, const char *name, int64_t frame) {
     char path[PATH_MAX];
     struct stat about;

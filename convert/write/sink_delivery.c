@@ -7,7 +7,9 @@
 #include "convert/base/module.h"
 #include "convert/job/delivery.h"
 #include "convert/media/libav/libav.h"
+#include "convert/write/packing.h"
 #include "convert/write/sink_kinds.h"
+#include "convert/write/size.h"
 
 struct wf_sink {
     const wf_libav_writer *writer;
@@ -62,20 +64,12 @@ static void tell(const wf_output_options *o, char *text, size_t size) {
 
 /* ---- Sizes ---- */
 
-static int64_t seconds_of(const wf_output_options *o, int64_t frames, int64_t rate) {
-    return (int64_t)((double)(frames * rate) / wf_ratio_value(o->raster->frame_rate));
-}
-
-int64_t wf_sound_bytes(const wf_output_options *o, int64_t frames) {
-    return o->silent_tracks * seconds_of(o, frames, 48000 * 3);
-}
-
 /* Of uncompressed frames and of those of a constant rate; 0: others. DNxHD's table of n Mb/s is
  * that of 25 frames, and of 50 where there are 720 lines. */
 static int64_t picture_bytes(const wf_output_options *o, const wf_delivery *d,
                              const wf_delivery_form *form, int64_t frames) {
     if (!strcmp(d->encoder, "v210")) return frames * (int64_t)wf_v210_bytes(o);
-    if (d->constant) return seconds_of(o, frames, form->bit_rate / 8);
+    if (d->constant) return wf_bytes_at_rate(o, frames, form->bit_rate / 8);
     if (!strcmp(d->encoder, "dnxhd") && form->bit_rate)
         return frames * (form->bit_rate / 8 / (form->lines == 720 ? 50 : 25));
     return 0;

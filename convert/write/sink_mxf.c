@@ -3,7 +3,9 @@
 
 #include "convert/base/outfile.h"
 #include "convert/write/mxf.h"
+#include "convert/write/packing.h"
 #include "convert/write/sink_kinds.h"
+#include "convert/write/size.h"
 
 struct wf_sink {
     wf_output_options options;

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/metadata.h"
+#include "convert/media/metadata_mov.h"
+#include "convert/media/metadata_mxf.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

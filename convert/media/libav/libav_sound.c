@@ -1,7 +1,7 @@
 /* Silence beside a video: formats that ask for sound get tracks of it. */
-#include <string.h>
+#include "convert/media/libav/libav_sound.h"
 
-#include "convert/media/libav/libav_write.h"
+#include <string.h>
 
 static int channels_of(const wf_writing *w) {
     return w->delivery->one_audio_stream ? w->options.silent_tracks : 1;

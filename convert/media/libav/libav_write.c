@@ -1,7 +1,5 @@
 /* The libav module's other half: deliveries, encoded by libavcodec and laid out by libavformat,
  * which is told what the raster is in every place that it looks at: frames, encoder, stream. */
-#include "convert/media/libav/libav_write.h"
-
 #include <inttypes.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/intreadwrite.h>
@@ -14,19 +12,12 @@
 #include "convert/job/colors.h"
 #include "convert/job/timecode.h"
 #include "convert/media/container.h"
+#include "convert/media/libav/libav.h"
+#include "convert/media/libav/libav_sound.h"
 
 WEFT_API wf_libav_writer_fn wf_libav_writer_of;
 
 #define BUFFER_BYTES (1 << 16)
-
-weft_status wf_writing_failed(const wf_writing *w, const char *doing, int code,
-                              weft_error *err) {
-    char why[AV_ERROR_MAX_STRING_SIZE] = "";
-    if (*w->failure.text) return wf_fail(err, WEFT_FAILED, "%s", w->failure.text);
-    av_strerror(code, why, sizeof why);
-    return wf_fail(err, code == AVERROR(ENOMEM) ? WEFT_NO_MEMORY : WEFT_FAILED,
-                   "%.500s: %s: %s", w->options.output, doing, why);
-}
 
 static bool writes_mov(const wf_writing *w) {
     return !strcmp(w->delivery->muxer, "mov");
@@ -261,14 +252,6 @@ static void take_frame(const wf_writing *w, const wf_frame *frame) {
     }
 }
 
-int wf_writing_mux(wf_writing *w, const AVCodecContext *codec, int stream) {
-    AVPacket *p = w->packet;
-    if (codec == w->codec) p->duration = 1;
-    p->stream_index = stream;
-    av_packet_rescale_ts(p, codec->time_base, w->format->streams[stream]->time_base);
-    return av_interleaved_write_frame(w->format, p);
-}
-
 /* Hands the encoder a frame, or none at the end, and the file what comes of it. */
 static weft_status encode(wf_writing *w, AVFrame *frame, weft_error *err) {
     int code = avcodec_send_frame(w->codec, frame);
@@ -334,14 +317,14 @@ static weft_status open_writing(const wf_output_options *options, const wf_deliv
     return status;
 }
 
-static weft_status mend(wf_writing *w, weft_error *err) {
+static weft_status complete(wf_writing *w, weft_error *err) {
     const wf_container_facts facts = {
         .muxer = w->delivery->muxer,
         .raster = &w->raster,
         .tags = w->tags,
         .compressor = wf_delivery_quicktime(w->delivery, &w->raster).name,
     };
-    return wf_container_mend(w->file, &facts, err);
+    return wf_container_complete(w->file, &facts, err);
 }
 
 static weft_status commit(void *state, weft_error *err) {
@@ -353,7 +336,7 @@ static weft_status commit(void *state, weft_error *err) {
         code = w->format->pb->error;
     }
     if (code < 0) status = wf_writing_failed(w, "it cannot be finished", code, err);
-    if (!status) status = mend(w, err);
+    if (!status) status = complete(w, err);
     wf_outfile *file = w->file;
     release(w);
     if (!status) return wf_outfile_commit(file, err);

@@ -162,7 +162,7 @@ void describe(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) 
              channels.c_str(), spec.format.is_floating_point() ? "float" : "uint", bits);
 }
 
-// weft:raster where the format has room for it; else the words that weft's own writer begins
+// weft:raster where the format has a place for it; else the words that weft's own writer begins
 // the description with.
 void read_raster(const ImageSpec &spec, wf_image_info *info) {
     const std::string words = spec.get_string_attribute("ImageDescription");

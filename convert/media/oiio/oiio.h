@@ -4,9 +4,9 @@
 #include "convert/base/fail.h"
 #include "convert/media/image.h"
 
-/* What the OpenImageIO module (convert/oiio*.cpp) does for sources and sinks: formats that weft
- * does not read or write itself. No function keeps anything between calls; any threads. Entry
- * points are found by name with wf_module_symbol("oiio", "wf_oiio_probe", ..). */
+/* What the OpenImageIO module (convert/media/oiio) does for reading and writing: formats that
+ * weft does not read or write itself. No function keeps anything between calls; any threads.
+ * Entry points are found by name with wf_module_symbol("oiio", "wf_oiio_probe", ..). */
 
 /* What picture `part` (subimage, counted from 0; -1: the first) of a file is, no pixel read.
  * Names of its channels follow each other in *names, each with its '\0'; owned by the caller,

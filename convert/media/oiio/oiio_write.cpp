@@ -219,7 +219,7 @@ ImageSpec spec_of(const wf_oiio_picture &p) {
     spec.attribute("DateTime", ""); // or the writer's clock: equal frames are to be equal files
     spec.attribute("Orientation", 1);
     spec.attribute("PixelAspectRatio", float(wf_ratio_value(p.pixel_aspect)));
-    const std::string order = order_name(p); // DPX has room for 31 characters
+    const std::string order = order_name(p); // DPX holds 31 characters
     spec.attribute("ImageDescription",
                    std::string(p.raster).substr(0, 29 - order.size()) + ", " + order);
     for (const auto &row : writers)

@@ -33,8 +33,9 @@ static const wf_delivery_form *form_of(const wf_delivery *d, const wf_raster *ra
 
 /* ---- Lines ---- */
 
-/* Picture lines that are dropped or added above move both fields' first lines: rasters.md, and
- * SMPTE ST 314 (DV) and ST 356 (D-10) for where the codecs' own begin. */
+/* Picture lines that are dropped or added above move both fields' first lines. Where
+ * rasters begin is in filters/README.md; where those of codecs do, in SMPTE ST 314 (DV) and
+ * ST 356 (D-10). */
 static void lines_of_the_file(void **state) {
     (void)state;
     static const struct {

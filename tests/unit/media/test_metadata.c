@@ -8,8 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "convert/base/big_endian.h"
 #include "convert/media/klv.h"
-#include "convert/media/metadata.h"
+#include "convert/media/metadata_mov.h"
+#include "convert/media/metadata_mxf.h"
 
 #define MOST 2048
 

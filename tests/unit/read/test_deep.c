@@ -9,7 +9,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#include "convert/media/deep.h"
+#include "convert/read/deep_read.h"
+#include "convert/write/deep_write.h"
 
 #define WIDTH 24
 #define LINES 10

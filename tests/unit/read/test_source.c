@@ -1,5 +1,5 @@
 /* The source: every storage, compression and type against the values written; windows, layers
- * and parts; reuse of equal chunks; mending against its definition; damaged files. */
+ * and parts; reuse of equal chunks; what NaN becomes against its definition; damaged files. */
 #include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
@@ -326,7 +326,7 @@ static float holes(const void *user, int channel, int x, int y) {
 }
 
 /* The definition, from the picture as it was. */
-static double mended(const exr_part *p, int channel, int x, int y, bool black) {
+static double fixed(const exr_part *p, int channel, int x, int y, bool black) {
     double sum = 0;
     int count = 0;
     double value = (double)p->value(p->user, channel, x, y);
@@ -352,7 +352,7 @@ static int64_t pixels_with_holes(const exr_part *p) {
     return count;
 }
 
-static void expect_mended(const char *path, const exr_part *p, wf_nan_fix how, int step) {
+static void expect_fixed(const char *path, const exr_part *p, wf_nan_fix how, int step) {
     wf_source_options options = plain;
     options.nan_fix = how;
     wf_subframe *s = opened(path, -1, &options);
@@ -364,7 +364,7 @@ static void expect_mended(const char *path, const exr_part *p, wf_nan_fix how, i
         for (int c = 0; c < 3; c++)
             for (int j = y; j < end; j++)
                 for (int x = p->data.x0; x < p->data.x1; x++) {
-                    double should = mended(p, place_of(c, p), x, j, how == WF_NAN_BLACK);
+                    double should = fixed(p, place_of(c, p), x, j, how == WF_NAN_BLACK);
                     double is = (double)sample(&rows, c, x, j);
                     if (!(fabs(is - should) <= 1e-6 * fabs(should) + 1e-12))
                         fail_msg("%d,%d is %g, should be %g", x, j, is, should);
@@ -387,8 +387,8 @@ static void not_finite(void **state) {
         const char *path = temporary("holes.exr");
         assert_true(exr_write(path, &p, 1));
         for (int step = 1; step < 50; step += 7) {
-            expect_mended(path, &p, WF_NAN_BOX3, step);
-            expect_mended(path, &p, WF_NAN_BLACK, step);
+            expect_fixed(path, &p, WF_NAN_BOX3, step);
+            expect_fixed(path, &p, WF_NAN_BLACK, step);
         }
     }
 }

@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#include "convert/media/mxf_klv.h"
+#include "convert/write/mxf_klv.h"
 #include "convert/write/mxf.h"
 #include "tests/unit/support/jobs.h"
 

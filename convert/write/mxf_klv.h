@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_MEDIA_MXF_KLV_H
-#define WF_CONVERT_MEDIA_MXF_KLV_H
+#ifndef WF_CONVERT_WRITE_MXF_KLV_H
+#define WF_CONVERT_WRITE_MXF_KLV_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 /* A zeroed one is empty; free data. After a failed allocation nothing more is added. */
 typedef struct wf_bytes {
     uint8_t *data;
-    size_t size, room;
+    size_t size, capacity;
     bool failed;
 } wf_bytes;
 

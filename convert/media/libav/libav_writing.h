@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITE_H
-#define WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITE_H
+#ifndef WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITING_H
+#define WF_CONVERT_MEDIA_LIBAV_LIBAV_WRITING_H
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -8,7 +8,7 @@
 #include "convert/job/colors.h"
 #include "convert/media/libav/libav.h"
 
-/* What the files of the libav module that write share. */
+/* A delivery that is being written, and what its picture and its sound both do. */
 
 #define WF_SOUND_RATE 48000
 
@@ -41,12 +41,7 @@ typedef struct wf_writing {
 weft_status wf_writing_failed(const wf_writing *w, const char *doing, int code,
                               weft_error *err);
 
-/* Gives a packet of the encoder to the file. */
+/* Gives w->packet, which codec has made, to stream `stream` of the file. 0 or an AVERROR. */
 int wf_writing_mux(wf_writing *w, const AVCodecContext *codec, int stream);
-
-/* Adds the streams; writes what belongs to the frames up to now; frees. */
-weft_status wf_sound_open(wf_writing *w, weft_error *err);
-weft_status wf_sound_write(wf_writing *w, weft_error *err);
-void wf_sound_free(wf_sound *sound);
 
 #endif

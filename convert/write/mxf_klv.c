@@ -1,9 +1,10 @@
-#include "convert/media/mxf_klv.h"
+/* Builds MXF in memory: keys, lengths and values, local sets, the primer. */
+#include "convert/write/mxf_klv.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/klv.h"
+#include "convert/base/big_endian.h"
 
 #define BER_BYTES 4
 
@@ -11,12 +12,12 @@
 
 static bool make_room(wf_bytes *b, size_t more) {
     if (b->failed) return false;
-    if (b->room - b->size >= more) return true;
-    size_t room = 2 * (b->size + more) + 4096;
-    uint8_t *data = realloc(b->data, room);
+    if (b->capacity - b->size >= more) return true;
+    size_t capacity = 2 * (b->size + more) + 4096;
+    uint8_t *data = realloc(b->data, capacity);
     if (!data) return !(b->failed = true);
     b->data = data;
-    b->room = room;
+    b->capacity = capacity;
     return true;
 }
 

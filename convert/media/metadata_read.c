@@ -1,9 +1,14 @@
-#include "convert/media/metadata.h"
+/* What a container says of itself: libav is asked first, then our own readers of MOV and MXF.
+ */
+#include "convert/media/metadata_read.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "convert/base/module.h"
+#include "convert/media/metadata_mov.h"
+#include "convert/media/metadata_mxf.h"
 
 weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err) {
     void *symbol;

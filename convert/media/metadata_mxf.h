@@ -1,0 +1,12 @@
+#ifndef WF_CONVERT_MEDIA_METADATA_MXF_H
+#define WF_CONVERT_MEDIA_METADATA_MXF_H
+
+#include <stdio.h>
+
+#include "convert/media/metadata.h"
+
+/* Adds what a MXF file says in places that libavformat keeps to itself. What is not well
+ * formed ends the reading of it; nothing is read beyond the file. */
+void wf_metadata_mxf(FILE *file, wf_metadata *metadata);
+
+#endif
