@@ -1,3 +1,4 @@
+/* The table of apertures, their integrals over cells and their responses. */
 #include "filters/aperture/aperture.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ static double clamp(double z, double low, double high) {
     return fmin(fmax(z, low), high);
 }
 
-/* Length of [z0, z1] within |z| <= half. */
+/* The length of the part of z0 .. z1 that lies within |z| <= half. */
 static double overlap(double z0, double z1, double half) {
     return clamp(z1, -half, half) - clamp(z0, -half, half);
 }
@@ -34,14 +35,14 @@ static double notch_integral(double v) {
     return copysign(area, v);
 }
 
-/* The s >= 0 at which f falls to level, 0 < level; 0 above the peak. */
+/* The s >= 0 at which f(s) = level, for level > 0; 0 where level is above the peak of f. */
 static double notch_inverse(double level) {
     if (level >= 0.5) return 0;
     return level >= 0.25 ? 2 * sqrt(0.5 - level) : 2 - 2 * sqrt(level);
 }
 
-/* Integral over [v0, v1] of clamp(u, -2f, 2f): how much of the shaped region lies left of u, up
- * to a term that does not depend on u. */
+/* The integral over v in [v0, v1] of clamp(u, -2 f(v), 2 f(v)): how much of the shaped region
+ * lies left of u, but for a term that does not depend on u. */
 static double shaped_left(double u, double v0, double v1) {
     double c = fabs(u), knee = notch_inverse(c / 2), area[2] = {v0, v1};
     for (int e = 0; e < 2; e++) {
@@ -116,7 +117,7 @@ static double design_cell_v(const wf_aperture *a, double v0, double v1) {
     return wf_stairs_integral(&a->stairs, v1) - wf_stairs_integral(&a->stairs, v0);
 }
 
-/* Integral from 0 of 1 - |v|: the diamond seen along time. */
+/* The integral from 0 of 1 - |v|, which is the diamond seen along time. */
 static double tent_integral(double v) {
     double s = fmin(fabs(v), 1);
     return copysign(s - s * s / 2, v);
@@ -127,8 +128,8 @@ static double diamond_cell_v(const wf_aperture *a, double v0, double v1) {
     return tent_integral(v1) - tent_integral(v0);
 }
 
-/* Integral over p in [p0, p1] of clamp(v, -(1 - |p|), 1 - |p|): as shaped_left, for the diamond
- * |v| + |p| <= 1. */
+/* The integral over p in [p0, p1] of clamp(v, -(1 - |p|), 1 - |p|): what shaped_left is, of the
+ * diamond |v| + |p| <= 1. */
 static double diamond_below(double v, double p0, double p1) {
     double c = fmin(fabs(v), 1), knee = 1 - c, area[2] = {p0, p1};
     for (int e = 0; e < 2; e++) {
@@ -218,7 +219,7 @@ static double design_response(const wf_aperture *a, double tau, double fx, doubl
     return wf_sinc(2 * a->half_u * fx) * wf_stairs_response(&a->stairs, fy) * wf_sinc(tau * ft);
 }
 
-/* ---- The table (resampling.md, Apertures) ---- */
+/* ---- The table (filters/README.md, Apertures) ---- */
 
 static const wf_aperture_kind kinds[] = {
     {.name = "line",

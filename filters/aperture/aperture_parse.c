@@ -1,4 +1,4 @@
-/* Apertures by name. */
+/* Reads apertures by name, with what follows the name. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +44,7 @@ static bool parse_design(const char *text, wf_aperture *out, char *why, size_t w
     return true;
 }
 
-/* Whether something follows the name where it should. */
+/* Whether something follows the name just where something should. */
 static bool well_formed(const wf_aperture_kind *kind, const char *colon, char *why,
                         size_t why_size) {
     if (kind->follows ? *colon && colon[1] : !*colon) return true;

@@ -1,4 +1,5 @@
-/* Designs that have names, solved. tests/unit/filters/test_design.c solves them again. */
+/* The answers to the wishes of crisp and calm, so that their names cost nothing to read.
+ * tests/unit/filters/test_design.c solves them again. */
 #include "filters/aperture/design.h"
 
 const double wf_comb_crisp[] = {

@@ -1,3 +1,5 @@
+/* Designs vertical apertures: the least flicker for a sharpness, or the most sharpness for a
+ * flicker, as a convex quadratic program. */
 #include "filters/aperture/design.h"
 
 #include <math.h>
@@ -12,55 +14,59 @@
 /* Contrast may turn over beyond a quarter of a cycle a line, but no further than this. */
 #define REVERSAL 0.05
 
-/* Responses are held at frequencies so close together that what a kernel of `support` lines
- * does between them is within a fiftieth: closer where it is steep. Where it is more all the
- * same, of responses that go far up, a tenth of the limit is kept back. */
+/* A response is limited at some frequencies only: POINTS_A_LINE * support of them in a cycle a
+ * line, and up to STEEP cycles a line, where responses are steep, CLOSER * support. Between
+ * them it goes beyond its limit by less than a fiftieth, so limits are BETWEEN of what was
+ * wished; where an answer breaks one all the same, they are SURELY of it in a second attempt.
+ */
 #define POINTS_A_LINE 16
 #define CLOSER        32
 #define STEEP         2
 #define BETWEEN       0.98
 #define SURELY        0.9
 
-/* The program's values are of the order of 1. */
+/* What flicker squared is multiplied by, so that the program's numbers are of the order of 1.
+ */
 #define SCALE 400
 
-/* The integral of m squared, times this, is added to flicker squared: of kernels that flicker
- * alike the one that passes the least noise, and one only. It costs less than 1e-4 of flicker.
- */
+/* The integral of m squared, times this, is added to flicker squared, so that of all kernels
+ * that flicker alike one only is best, which passes the least noise. It costs less than 1e-4 of
+ * flicker. */
 #define NOISE 1e-6
 
-/* The part of flicker and noise that is left where the sharpest is looked for; at times the
- * solver needs more to hold on to. */
+/* The part of flicker and noise that stays in the program where the sharpest kernel is looked
+ * for; the solver gets stuck on less at times, and tries more, up to ENOUGH. */
 #define HARDLY 1e-3
 #define ENOUGH 0.05
 
-/* Short of the most sharpness there is by less, the sharpest is what was wished for. */
+/* A wish for sharpness that is below the most there is by less than this gets the sharpest. */
 #define NEARLY 3e-4
 
 #define FLICKER_TOLERANCE 1e-7
-#define NARROWEST         1e-12 /* span of sharpnesses in which it is still looked for */
+#define NARROWEST         1e-12 /* range of sharpness that is not searched any more */
 #define MOST_PROGRAMS     40
-#define PAST_ALL          4 /* a response beyond any there is */
+#define PAST_ALL          4 /* a response that no kernel has */
 
-/* What an answer may be off its limits by. */
+/* What an answer may be beyond its limits by. */
 #define OFF 1e-4
 
-/* Unknowns are the comb's numbers. The last limit is that of the last sharpness. */
+/* A quadratic program whose unknowns are the comb's numbers. Its last limit is that of the last
+ * sharpness. */
 typedef struct program {
     const wf_design_wish *wish;
     wf_qp qp;
     wf_qp_answer answer;
-    double row[WF_COMB_MOST]; /* of H at the last `at` */
+    double row[WF_COMB_MOST]; /* H at the last `at` is this times the comb */
     double scanned_px;        /* mean over fx of sinc(width fx) squared */
-    double between;           /* of limits, at the frequencies that are looked at */
-    double part;              /* of flicker and noise that sharpest() left */
-    bool sharpest;            /* the answer is that of sharpest() */
+    double between;           /* the share of a limit that a response is held to */
+    double part;              /* what sharpest() left of flicker and noise */
+    bool sharpest;            /* the answer is sharpest()'s */
     int iterations, solved;
 } program;
 
 /* ---- The program ---- */
 
-/* H(f) is this times the comb. */
+/* Finds the row that, times the comb, is H(f). */
 static void response_row(const program *p, double f, double *row) {
     for (int k = 0; k < p->qp.n; k++)
         row[k] = (k ? 2 : 1) * wf_sinc(2 * f) * cos(2 * M_PI * f * k / WF_STAIRS_STEPS);
@@ -72,8 +78,8 @@ static void limit(program *p, const double *row, double sign, double most) {
     p->qp.h[p->qp.m++] = most;
 }
 
-/* Steps are the knots of the response to an edge, which is straight between them. What it is
- * after the last is known. */
+/* The response to an edge is a straight line from step to step, so it is limited at each; after
+ * the last one it is 1. */
 static void limit_overshoot(program *p) {
     double area[WF_COMB_MOST] = {0};
     int steps = p->qp.n - 1 + WF_STAIRS_STEPS;
@@ -103,8 +109,8 @@ static void limit_response(program *p) {
     }
 }
 
-/* What is coarser than `at` is seen no less: else the least flicker would be had by leaving out
- * all that lies between level light and `at`. */
+/* Frequencies below `at` are held to H(at) or more: else the least flicker would be had by
+ * leaving out all that lies between 0 and `at`. */
 static void limit_sharpness(program *p, double at, double sharp) {
     double lower[WF_COMB_MOST], step = 1 / (CLOSER * p->wish->support);
     response_row(p, at, p->row);
@@ -135,7 +141,7 @@ static double weight_of(const program *p, int point) {
     return p->scanned_px / 8 * pow(sin(M_PI * wf_flicker_fy(point)), 4) / WF_FLICKER_POINTS;
 }
 
-/* Flicker squared and noise, as filters/flicker.c and wf_stairs_power have them. */
+/* The program's aim is flicker squared and noise, as wf_flicker and wf_stairs_power say. */
 static void aim_at_flicker(program *p) {
     double row[WF_COMB_MOST];
     for (int i = 0; i < WF_FLICKER_POINTS; i++) {
@@ -166,7 +172,7 @@ static bool make(program *p, const wf_design_wish *wish, double between) {
 
 /* ---- Its answers ---- */
 
-/* The least flicker, of a sharpness where it is limited. */
+/* Finds the least flicker, with the last sharpness limited or not. */
 static wf_qp_end least_flicker(program *p, bool limited) {
     p->qp.m -= limited ? 0 : 1;
     wf_qp_end end = wf_qp_solve(&p->qp, &p->answer);
@@ -182,7 +188,8 @@ static double last_response(const program *p) {
     return sum;
 }
 
-/* The most that the last sharpness can be, nearly: some flicker and noise is left to tell. */
+/* Finds nearly the most that the last sharpness can be; part of flicker and noise stays in the
+ * aim, so that one kernel is best. */
 static wf_qp_end sharpest(program *p) {
     int n = p->qp.n;
     wf_qp_end end = WF_QP_STUCK;
@@ -242,7 +249,7 @@ static bool lost(reason *why, const wf_design_wish *w) {
                w->support, w->sharp[w->sharps - 1]);
 }
 
-/* The last sharpness is more than the most there is. */
+/* Says that the last sharpness is more than the most there is. */
 static bool too_sharp(reason *why, const wf_design_wish *w, double most) {
     char others[40 * WF_DESIGN_SHARPS] = "";
     int last = w->sharps - 1, used = 0;
@@ -258,7 +265,8 @@ static bool too_sharp(reason *why, const wf_design_wish *w, double most) {
 
 static bool solve(program *p, const wf_design_wish *wish, reason *why);
 
-/* The sharpnesses before the last leave nothing: the first of them that does is told of. */
+/* The sharpnesses before the last leave no kernel: says which of them is the first that does.
+ */
 static bool blame(const wf_design_wish *wish, reason *why) {
     wf_design_wish fewer = *wish;
     program p;
@@ -281,12 +289,12 @@ static bool solve_for_sharpness(program *p, reason *why) {
     if (end != WF_QP_SOLVED) return refuse(why, end, w);
     double most = last_response(p), spare = most - w->sharp[w->sharps - 1];
     if (spare < 0) return too_sharp(why, w, most);
-    /* What is as sharp as wished has less flicker by no more than what sharpest() proves. */
+    /* Kernels as sharp as wished have less flicker by no more than what sharpest() proves. */
     p->answer.gap = (p->answer.gap + spare) / p->part;
     return spare < NEARLY || lost(why, w);
 }
 
-/* An answer that is kept. */
+/* An answer to come back to. */
 typedef struct kept {
     double x[WF_COMB_MOST], gap;
 } kept;
@@ -301,9 +309,10 @@ static void take_back(program *p, const kept *from) {
     p->answer.gap = from->gap;
 }
 
-/* Flicker squared is convex in the sharpness and the limit's multiplier is its slope: Newton's
- * steps, and halves where they leave what is known. `best` is the answer at low; it is what is
- * left where rounding keeps the solver from others. */
+/* Searches for the sharpness low .. high whose least flicker is the one wished for. Flicker
+ * squared is convex in the sharpness and the limit's multiplier is its slope, so Newton's steps
+ * are taken, and halves of the range where they leave it. `best` is the answer at low, which is
+ * given where rounding keeps the solver from a better one. */
 static wf_qp_end approach(program *p, double low, double high, kept *best) {
     double target = p->wish->flicker - FLICKER_TOLERANCE / 2, sharp = (low + high) / 2;
     while (p->solved < MOST_PROGRAMS && high - low > NARROWEST) {
@@ -389,7 +398,7 @@ static bool attempt(const wf_design_wish *wish, double between, wf_design *desig
     return solved;
 }
 
-/* No answer that breaks a limit is given away. */
+/* An answer that breaks a limit is not given. */
 bool wf_design_solve(const wf_design_wish *wish, wf_design *design, char *why,
                      size_t why_size) {
     reason said = {why, why_size, false};

@@ -1,4 +1,4 @@
-/* What an aperture is wished to be, in words. */
+/* Reads what a designed aperture is wished to be: KEY=VALUE,.. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,14 +10,14 @@
 typedef struct key_row {
     const char *name;
     double low, high;
-    size_t offset; /* of the number, the first of several, in the wish */
-    bool halves;
+    size_t offset; /* of the number in the wish, or of the first of several */
+    bool halves;   /* a multiple of 1/2 */
 } key_row;
 
 #define KEY(field) offsetof(wf_design_wish, field)
 
-/* More sharpness than 1 would be a peak. Of an alias of less than 0.04 the steps' own images,
- * near 8 cycles a line, are in the way. */
+/* A sharpness above 1 would be a peak. An alias below 0.04 is out of reach: the steps' own
+ * images near 8 cycles a line are as large. */
 enum { SHARP = 3, AT = 4 };
 static const key_row keys[] = {
     {"support", 1.5, WF_STAIRS_LINES, KEY(support), true},
@@ -30,10 +30,10 @@ static const key_row keys[] = {
 };
 #define KEYS (sizeof keys / sizeof *keys)
 
-/* What is being read, and what of it there was. */
+/* What has been read so far. */
 typedef struct reading {
     wf_design_wish *wish;
-    unsigned given; /* a bit for each key; that of `at` is of the last sharp's */
+    unsigned given; /* a bit for each key that came; `at`'s is cleared by another sharp */
     bool at_first;  /* `at` came before any sharp */
     char *why;
     size_t why_size;
@@ -61,7 +61,7 @@ static bool refuse(const reading *r, const char *what) {
     return false;
 }
 
-/* Whether a key may come where it does. A new sharp may have an `at` again. */
+/* Whether a key may come where it does. Each further sharp may have an `at`. */
 static bool in_turn(reading *r, const key_row *row) {
     wf_design_wish *wish = r->wish;
     unsigned bit = 1u << (row - keys), at_bit = 1u << AT;
@@ -81,7 +81,7 @@ static bool in_turn(reading *r, const key_row *row) {
     return true;
 }
 
-/* The number that a key names. */
+/* Where in the wish the number of a key goes. */
 static double *place_of(const key_row *row, wf_design_wish *wish) {
     double *first = (double *)((char *)wish + row->offset);
     if (row == &keys[SHARP]) return first + wish->sharps++;

@@ -1,3 +1,4 @@
+/* Flicker of the still zone plate, by the midpoint rule. */
 #include "filters/aperture/flicker.h"
 
 #include <math.h>

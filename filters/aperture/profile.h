@@ -1,16 +1,17 @@
+/* Values of apertures, in loops. */
 #ifndef WF_FILTERS_APERTURE_PROFILE_H
 #define WF_FILTERS_APERTURE_PROFILE_H
 
 #include "filters/aperture/aperture.h"
 #include "filters/base/isa.h"
 
-/* h itself, unnormalised, for samples that the window sees (|q| <= tau / 2): for each of count
- * pairs v, q one height, that of all |u| <= half_u. Arrays of [count]. */
+/* h itself, unnormalized, for samples that the window sees (|q| <= tau / 2): for each of count
+ * pairs v, q the height that it has for all |u| <= half_u. Arrays of [count]. */
 typedef void wf_profile_fn(const wf_aperture *a, double tau, int count, const double *v,
                            const double *q, double *height, double *half_u);
 
 typedef struct wf_profile_ops {
-    wf_profile_fn *of[WF_PROFILES];
+    wf_profile_fn *of[WF_PROFILES]; /* by wf_profile */
 } wf_profile_ops;
 
 WF_ISA_DECLARE(wf_profile_ops);

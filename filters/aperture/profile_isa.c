@@ -24,7 +24,7 @@ static void box(PROFILE) {
     }
 }
 
-/* f: the quadratic notch. */
+/* f, the quadratic notch filter. */
 static inline double notch_f(double v) {
     double s = fabs(v), near = 0.5 - s * s / 4, far = s * s / 4 - s + 1;
     return s < 1 ? near : s < 2 ? far : 0;
@@ -38,7 +38,7 @@ static void notch(PROFILE) {
     }
 }
 
-/* The region is open: |u| < 2 f(v). */
+/* |u| < 2 f(v): the border does not belong to it. */
 static void shaped(PROFILE) {
     (void)a, (void)tau, (void)q;
     for (int i = 0; i < count; i++) {

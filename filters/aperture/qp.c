@@ -44,7 +44,7 @@ typedef struct work {
     double *k;                         /* [n][n]: Q + G' (z/s) G, then its Cholesky factor */
     double *dual, *right, *dx, *along; /* [n]; along: K^-1 a */
     double *s, *ds, *dz, *short_of, *center; /* [m] */
-    double level;                            /* what a'x is short of b */
+    double level;                            /* a'x - b */
 } work;
 
 static bool make_work(work *w, int n, int m) {
@@ -93,7 +93,7 @@ static void substitute(const double *k, int n, const double *right, double *x) {
 
 /* ---- The method ---- */
 
-/* What the optimum's conditions are off by; true where that is little. */
+/* Finds what the conditions of an optimum are off by; true where that is little. */
 static bool residuals(const wf_qp *qp, const wf_qp_answer *at, work *w) {
     int n = qp->n;
     double limits = 0, slopes = 0;
@@ -119,7 +119,8 @@ static bool prepare(const wf_qp *qp, const wf_qp_answer *at, work *w) {
     return true;
 }
 
-/* Newton's direction to where slack times multiplier changes by -center; dy is returned. */
+/* Finds Newton's direction to where each slack times its multiplier has changed by -center;
+ * returns the part of it that is y's. */
 static double direct(const wf_qp *qp, const wf_qp_answer *at, work *w) {
     int n = qp->n;
     for (int i = 0; i < n; i++) w->right[i] = -w->dual[i];

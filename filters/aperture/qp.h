@@ -1,3 +1,4 @@
+/* A solver of small convex quadratic programs. */
 #ifndef WF_FILTERS_APERTURE_QP_H
 #define WF_FILTERS_APERTURE_QP_H
 

@@ -1,11 +1,13 @@
+/* What an aperture's weights leave of a vertical grating. */
 #include "filters/aperture/residue.h"
 
 #include <math.h>
 
-/* Sums of a few weights are right to this. */
+/* The error of a sum of a few weights. */
 #define ROUNDING 1e-14
 
-/* Edge of input line b seen from the center of raster line j. The numerator is whole. */
+/* The upper edge of input line b, in lines from the center of raster line j: a quotient of
+ * whole numbers. */
 static double edge(int64_t b, int j, int input_lines, int lines) {
     int64_t half_ticks = 2 * b * lines - (2 * (int64_t)j + 1) * input_lines;
     return (double)half_ticks / (2.0 * input_lines);

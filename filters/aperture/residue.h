@@ -1,3 +1,4 @@
+/* Responses of weights, which differ from those of apertures. */
 #ifndef WF_FILTERS_APERTURE_RESIDUE_H
 #define WF_FILTERS_APERTURE_RESIDUE_H
 

@@ -1,3 +1,4 @@
+/* Kernels of equal steps. */
 #include "filters/aperture/stairs.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@ int wf_comb_count(double lines) {
     return (int)lround((lines - 1) * WF_STAIRS_STEPS) + 1;
 }
 
-/* Pulse k, and its mirror image at -k, cover the steps of one line to each side of them. */
+/* A pulse covers the steps of one line to each side of it, and so does its mirror image. */
 double wf_comb_share(int step, int pulse) {
     int right = step >= pulse - WF_STAIRS_STEPS && step < pulse + WF_STAIRS_STEPS;
     int left = step < WF_STAIRS_STEPS - pulse;

@@ -1,3 +1,4 @@
+/* Kernels of equal steps, which designs are made of. */
 #ifndef WF_FILTERS_APERTURE_STAIRS_H
 #define WF_FILTERS_APERTURE_STAIRS_H
 
@@ -28,19 +29,18 @@ int wf_comb_count(double lines);
 /* comb[wf_comb_count(lines)], of a sum other than zero; it is scaled to an area of 1. */
 void wf_stairs_init(wf_stairs *stairs, double lines, const double *comb);
 
-/* How many of pulse k and its mirror image reach step i: height i is half the sum of
- * share(i, k) comb[k] once the comb's own sum, mirror images included, is 1. */
+/* How many of pulse k and its mirror image reach step i: 0, 1 or 2. Height i is half the sum of
+ * share(i, k) comb[k], once the comb adds up to 1 with all mirror images. */
 double wf_comb_share(int step, int pulse);
 
-/* Integral of m from 0 to v. */
+/* The integral of m from 0 to v. */
 double wf_stairs_integral(const wf_stairs *stairs, double v);
 
 /* H(f), f in cycles a line. */
 double wf_stairs_response(const wf_stairs *stairs, double f);
 
-/* Integral of m squared: the share of independent samples' noise that passes, the line's
- * being 1.
- */
+/* The integral of m squared: how much of the noise of independent samples passes, where `line`
+ * passes 1. */
 double wf_stairs_power(const wf_stairs *stairs);
 
 #endif

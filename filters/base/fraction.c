@@ -1,3 +1,4 @@
+/* Numbers written as fractions. */
 #include "filters/base/fraction.h"
 
 #include <stdlib.h>

@@ -1,8 +1,9 @@
+/* Numbers written as fractions. */
 #ifndef WF_FILTERS_BASE_FRACTION_H
 #define WF_FILTERS_BASE_FRACTION_H
 
-/* Reads "1.5" or "3/2" as far as it goes; *end is where that is, text itself if it is no
- * number. 1/0 is infinite. */
+/* Reads "1.5" or "3/2" from the beginning of text. *end is set to what follows the number, or
+ * to text itself if there is none. 1/0 is infinite. */
 double wf_fraction_read(const char *text, const char **end);
 
 #endif

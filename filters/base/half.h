@@ -1,3 +1,4 @@
+/* Half-precision numbers. */
 #ifndef WF_FILTERS_BASE_HALF_H
 #define WF_FILTERS_BASE_HALF_H
 
@@ -6,7 +7,7 @@
 
 /* The value of an IEEE 754 binary16, exact; NaN and Inf included. */
 static inline float wf_half_value(uint16_t half) {
-    /* A half's exponent is moved up to a float's by the multiplication, which normalises
+    /* A half's exponent is moved up to a float's by the multiplication, which normalizes
      * subnormals on the way; Inf and NaN need the largest exponent again. */
     uint32_t bits = (uint32_t)(half & 0x7fff) << 13;
     float value;

@@ -1,3 +1,4 @@
+/* Which level of the processor's architecture hot loops are run at. */
 #ifndef WF_FILTERS_BASE_ISA_H
 #define WF_FILTERS_BASE_ISA_H
 

@@ -1,3 +1,4 @@
+/* The beginning of files of hot loops. */
 #ifndef WF_FILTERS_BASE_ISA_FILE_H
 #define WF_FILTERS_BASE_ISA_FILE_H
 

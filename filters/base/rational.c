@@ -1,3 +1,4 @@
+/* Exact ratios of 64-bit numbers, worked out in 128 bits. */
 #include "filters/base/rational.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Exact ratios: rates, times, widths, aspects. */
 #ifndef WF_FILTERS_BASE_RATIONAL_H
 #define WF_FILTERS_BASE_RATIONAL_H
 

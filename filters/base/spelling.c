@@ -1,3 +1,4 @@
+/* Looks for the name that was meant. */
 #include "filters/base/spelling.h"
 
 #include <string.h>

@@ -1,19 +1,21 @@
+/* Irregular samples into the pixels of a field. */
 #include "filters/gather/samples_inside.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Samples this near to the instant count where the window is one (resampling.md, Apertures). */
+/* How far from the instant samples count where the window is an instant, in field periods. */
 #define INSTANT 0x1p-12
 
 /* ---- Windows ---- */
 
-/* Instants in field periods; segmented frames show both fields at one. */
+/* How many instants one field is before another. */
 static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) {
     return (double)(wf_raster_instant(d->raster, to) - wf_raster_instant(d->raster, from));
 }
 
+/* The window's middle, in field periods after the instant. */
 static double middle_of(const wf_gather_desc *d) {
     return (0.5 - wf_position_anchor(d->position)) * wf_ratio_value(d->width);
 }
@@ -160,7 +162,7 @@ bool wf_gather_reached(const wf_gather *g, int line, int pixel) {
     return wf_gather_sums(g, line)[pixel].weight != 0;
 }
 
-/* The nearest reached pixel of one line; its distance along the line, or INT_MAX. */
+/* The pixel of one line nearest to `pixel` that samples reached, or -1. */
 static int nearest_in_line(const wf_gather *g, int line, int pixel) {
     const wf_pixel_sum *sum = wf_gather_sums(g, line);
     int width = g->desc.raster->width_px;
@@ -177,11 +179,11 @@ bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
     for (int l = g->held.first; l < g->held.end; l++) {
         double down = (double)(l - line) * g->line_step;
         if (down * down >= best_distance) continue;
-        int near = nearest_in_line(g, l, pixel);
-        double across = near - pixel, distance = down * down + across * across;
-        if (near < 0 || distance >= best_distance) continue;
+        int found = nearest_in_line(g, l, pixel);
+        double across = found - pixel, distance = down * down + across * across;
+        if (found < 0 || distance >= best_distance) continue;
         best_distance = distance;
-        best = &wf_gather_sums(g, l)[near];
+        best = &wf_gather_sums(g, l)[found];
     }
     if (!best) return false;
     rgb[0] = (float)(best->r / best->weight);

@@ -1,3 +1,4 @@
+/* Fields from irregular samples. */
 #ifndef WF_FILTERS_GATHER_SAMPLES_H
 #define WF_FILTERS_GATHER_SAMPLES_H
 
@@ -5,9 +6,10 @@
 #include "filters/raster/raster.h"
 #include "filters/raster/timing.h"
 
-/* Irregular samples (x, y, t, colour, weight) to fields (resampling.md, Weights): a pixel is
- * sum(h w c) / sum(h w) over the samples that its aperture reaches. Samples may come in any
- * order and number; a sample is added to every pixel that it reaches and need not be kept. */
+/* Irregular samples (x, y, t, color, weight) to fields (filters/README.md, Irregular samples):
+ * a pixel is sum(h w c) / sum(h w) over the samples that its aperture reaches. Samples may come
+ * in any order and number; a sample is added to every pixel that it reaches and need not be
+ * kept. */
 
 typedef struct wf_gather_desc {
     const wf_raster *raster;
@@ -32,26 +34,26 @@ typedef struct wf_sample_tiling {
     int count, width_px, rows;
 } wf_sample_tiling;
 
-/* One of them. */
+/* One such rectangle. */
 typedef struct wf_sample_tile {
     int index;                   /* which, counted over the raster */
     int left, right, first, end; /* pixels, frame rows */
-    const float *all; /* NULL, or: R, G, B of all in it and within a tile's size of it; there
-                         are no samples then */
-    bool still; /* at all times at which it is, its samples are the same, as counted from the
-                   instant of their field */
-    bool both;  /* and serve fields of both parities */
+    const float *all; /* R, G, B of everything in the tile and within a tile's size of it, which
+                         then has no samples; NULL where it has */
+    bool still; /* its samples are the same at all times, if times are counted from the instant
+                   of the samples' field */
+    bool both;  /* and they serve fields of both parities */
 } wf_sample_tile;
 
-/* Whoever takes samples. */
+/* Functions that take samples, with `user` handed to each. */
 typedef struct wf_receiver {
     void *user;
     void (*samples)(void *user, const wf_samples *samples);
-    /* NULL, or: a tile begins, whose samples follow. False: they are not wanted. */
+    /* Told before the samples of a tile; false: they are not wanted. NULL: nobody asks. */
     bool (*tile)(void *user, const wf_sample_tile *tile);
 } wf_receiver;
 
-/* Lines first <= l < end of a field, pixels left <= i < right of each. */
+/* A part of a field: its lines first <= l < end, pixels left <= i < right of each. */
 typedef struct wf_patch {
     int left, right, first, end;
 } wf_patch;
@@ -86,7 +88,7 @@ size_t wf_gather_bytes(const wf_gather_desc *desc, int lines);
 /* Adds samples; those that reach no pixel that is held add nothing. */
 void wf_gather_add(wf_gather *gather, const wf_samples *samples);
 
-/* Adds a sample of weight 1 to each pixel whose middle lies in a rectangle, of a colour that
+/* Adds a sample of weight 1 to each pixel whose middle lies in a rectangle, of a color that
  * all other samples that these pixels see have too. */
 void wf_gather_fill(wf_gather *gather, const wf_sample_tile *tile, const float rgb[3]);
 

@@ -1,10 +1,9 @@
+/* What samples.c shares with its loops. */
 #ifndef WF_FILTERS_GATHER_SAMPLES_INSIDE_H
 #define WF_FILTERS_GATHER_SAMPLES_INSIDE_H
 
 #include "filters/base/isa.h"
 #include "filters/gather/samples.h"
-
-/* Between samples.c and the loops compiled for each instruction set. */
 
 /* Sums of one pixel. */
 typedef struct wf_pixel_sum {
@@ -16,9 +15,9 @@ struct wf_gather {
     int64_t field;
     int parity, line_step, field_lines; /* of the field */
     wf_patch held;
-    double tau, middle, half; /* of the window, field periods from the instant */
-    double skew_a_line;
-    wf_pixel_sum *sum; /* [held.end - held.first][held.right - held.left] */
+    double tau, middle, half; /* of the window, in field periods; its middle from the instant */
+    double skew_a_line;       /* field periods that a frame line is late */
+    wf_pixel_sum *sum;        /* [held.end - held.first][held.right - held.left] */
 };
 
 /* How many instants of fields lie between a field and the gather's. */
@@ -31,7 +30,7 @@ typedef struct wf_gather_ops {
 
 WF_ISA_DECLARE(wf_gather_ops);
 
-/* The sums of a line: of pixel i at [i], where it is held. */
+/* The sums of a line, so that [i] is that of pixel i, where the gather holds it. */
 static inline wf_pixel_sum *wf_gather_sums(const wf_gather *g, int line) {
     return g->sum + (line - g->held.first) * (g->held.right - g->held.left) - g->held.left;
 }

@@ -12,7 +12,7 @@
 #define RUN   64 /* samples taken together */
 #define LANES 8
 
-/* Samples of one cell; those from count up to a multiple of LANES weigh nothing. */
+/* Samples of one cell. Copies of one of them, which weigh nothing, fill up the lanes. */
 typedef struct run {
     int count, padded;
     _Alignas(64) double x[RUN], y[RUN], t[RUN], light[4][RUN]; /* weight * (r, g, b, 1) */
@@ -85,7 +85,7 @@ static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
     sum->weight += total(weight);
 }
 
-/* An instant's aperture has only u and v, and the diamond's is then the tent that it tends to.
+/* At an instant the aperture has only u and v; the diamond's is then the tent that it tends to.
  */
 static void find_heights(const wf_gather *g, run *r, int j) {
     const wf_aperture *a = &g->desc.aperture;
@@ -111,7 +111,7 @@ static inline double largest(lanes v) {
     return most;
 }
 
-/* The widest that any of the run's samples reaches on the line; < 0: none reaches it. */
+/* The largest half_u of the run's samples on the line; < 0: none of them reaches it. */
 static double widest(const run *r) {
     lanes most = {-1, -1, -1, -1, -1, -1, -1, -1}, none = most;
     for (int i = 0; i < r->padded; i += LANES) {
@@ -122,7 +122,7 @@ static double widest(const run *r) {
     return largest(most);
 }
 
-/* The ends of the run's values. Those that pad it are copies. */
+/* The least and the largest of the run's values. Those that pad it are copies. */
 static void find_ends(const double *v, int padded, double *low, double *high) {
     lanes most = *(const lanes *)v, least = -most;
     for (int i = LANES; i < padded; i += LANES) {

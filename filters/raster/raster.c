@@ -1,3 +1,4 @@
+/* The broadcast rasters, by name and by description, and the order of their fields. */
 #include "filters/raster/raster.h"
 
 #include <ctype.h>
@@ -19,53 +20,48 @@ bool wf_raster_map_top_first(int line1, int line2, int total_lines) {
            TOP_FIRST(line1, line2, total_lines);
 }
 
-/* ---- The table (rasters.md) ---- */
+/* ---- The table (filters/README.md, Rasters) ---- */
 
-#define MAP(l1, l2, n)                                                                         \
-    .line1 = l1, .line2 = l2, .total_lines = n, .top_first = TOP_FIRST(l1, l2, n)
-#define SD(name, height, rate, par_num, par_den, matrix_, map)                                 \
-    { name, 720, height, rate, .pixel_aspect = {par_num, par_den}, .matrix = matrix_, map }
-#define HD(name, rate, scan_)                                                                  \
-    {                                                                                          \
-        name, 1920, 1080, rate, scan_, .pixel_aspect = {1, 1}, .matrix = WF_709,               \
-                                       MAP(21, 584, 1125)                                      \
-    }
-#define PROGRESSIVE(size, width, height, rate_name, rate, matrix_)                             \
-    {                                                                                          \
-        size "p" rate_name, width, height, rate, WF_PROGRESSIVE, .pixel_aspect = {1, 1},       \
-                                                                 .matrix = matrix_             \
-    }
-#define EVERY_RATE(size, width, height, matrix)                                                \
-    PROGRESSIVE(size, width, height, "23.976", RATE(24000, 1001), matrix),                     \
-        PROGRESSIVE(size, width, height, "24", RATE(24, 1), matrix),                           \
-        PROGRESSIVE(size, width, height, "25", RATE(25, 1), matrix),                           \
-        PROGRESSIVE(size, width, height, "29.97", RATE(30000, 1001), matrix),                  \
-        PROGRESSIVE(size, width, height, "30", RATE(30, 1), matrix),                           \
-        PROGRESSIVE(size, width, height, "50", RATE(50, 1), matrix),                           \
-        PROGRESSIVE(size, width, height, "59.94", RATE(60000, 1001), matrix),                  \
-        PROGRESSIVE(size, width, height, "60", RATE(60, 1), matrix)
-#define RATE(num, den)                                                                         \
-    { num, den }
+/* clang-format off */
+#define RATE(num, den) {num, den}
+#define MAP(l1, l2, n) .line1 = l1, .line2 = l2, .total_lines = n, .top_first = TOP_FIRST(l1, l2, n)
+#define SD(name, lines, rate, par_num, par_den, matrix_, map)                                     \
+    {name, 720, lines, rate, .pixel_aspect = {par_num, par_den}, .matrix = matrix_, map}
+#define HD(name, rate, scan)                                                                      \
+    {name, 1920, 1080, rate, scan, .pixel_aspect = {1, 1}, .matrix = WF_709, MAP(21, 584, 1125)}
+#define PROGRESSIVE(name, width, lines, rate, matrix_)                                            \
+    {name, width, lines, rate, WF_PROGRESSIVE, .pixel_aspect = {1, 1}, .matrix = matrix_}
+#define EVERY_RATE(size, width, lines, matrix)                                                    \
+    PROGRESSIVE(size "p23.976", width, lines, RATE(24000, 1001), matrix),                         \
+    PROGRESSIVE(size "p24",     width, lines, RATE(24, 1),       matrix),                         \
+    PROGRESSIVE(size "p25",     width, lines, RATE(25, 1),       matrix),                         \
+    PROGRESSIVE(size "p29.97",  width, lines, RATE(30000, 1001), matrix),                         \
+    PROGRESSIVE(size "p30",     width, lines, RATE(30, 1),       matrix),                         \
+    PROGRESSIVE(size "p50",     width, lines, RATE(50, 1),       matrix),                         \
+    PROGRESSIVE(size "p59.94",  width, lines, RATE(60000, 1001), matrix),                         \
+    PROGRESSIVE(size "p60",     width, lines, RATE(60, 1),       matrix)
 
 static const wf_raster rasters[] = {
-    SD("525i", 486, RATE(30000, 1001), 10, 11, WF_601_525, MAP(21, 283, 525)),
-    SD("525i-imx", 486, RATE(30000, 1001), 10, 11, WF_601_525, MAP(20, 283, 525)),
-    SD("525i-dv", 480, RATE(30000, 1001), 10, 11, WF_601_525, MAP(23, 285, 525)),
+    /* name        lines  frames/s          aspect  Y'CbCr         L1, L2, N */
+    SD("525i",       486, RATE(30000, 1001), 10, 11, WF_601_525, MAP(21, 283, 525)),
+    SD("525i-imx",   486, RATE(30000, 1001), 10, 11, WF_601_525, MAP(20, 283, 525)),
+    SD("525i-dv",    480, RATE(30000, 1001), 10, 11, WF_601_525, MAP(23, 285, 525)),
     SD("525i-rp202", 480, RATE(30000, 1001), 10, 11, WF_601_525, MAP(23, 286, 525)),
-    SD("625i", 576, RATE(25, 1), 12, 11, WF_601_625, MAP(23, 336, 625)),
-    SD("625i-dv", 576, RATE(25, 1), 12, 11, WF_601_625, MAP(23, 335, 625)),
-    HD("1080i50", RATE(25, 1), WF_INTERLACED),
-    HD("1080i59.94", RATE(30000, 1001), WF_INTERLACED),
-    HD("1080i60", RATE(30, 1), WF_INTERLACED),
+    SD("625i",       576, RATE(25, 1),       12, 11, WF_601_625, MAP(23, 336, 625)),
+    SD("625i-dv",    576, RATE(25, 1),       12, 11, WF_601_625, MAP(23, 335, 625)),
+    HD("1080i50",       RATE(25, 1),       WF_INTERLACED),
+    HD("1080i59.94",    RATE(30000, 1001), WF_INTERLACED),
+    HD("1080i60",       RATE(30, 1),       WF_INTERLACED),
     HD("1080psf23.976", RATE(24000, 1001), WF_SEGMENTED),
-    HD("1080psf24", RATE(24, 1), WF_SEGMENTED),
-    HD("1080psf25", RATE(25, 1), WF_SEGMENTED),
-    HD("1080psf29.97", RATE(30000, 1001), WF_SEGMENTED),
-    HD("1080psf30", RATE(30, 1), WF_SEGMENTED),
+    HD("1080psf24",     RATE(24, 1),       WF_SEGMENTED),
+    HD("1080psf25",     RATE(25, 1),       WF_SEGMENTED),
+    HD("1080psf29.97",  RATE(30000, 1001), WF_SEGMENTED),
+    HD("1080psf30",     RATE(30, 1),       WF_SEGMENTED),
     EVERY_RATE("1080", 1920, 1080, WF_709),
-    EVERY_RATE("720", 1280, 720, WF_709),
+    EVERY_RATE("720",  1280,  720, WF_709),
     EVERY_RATE("2160", 3840, 2160, WF_2020),
 };
+/* clang-format on */
 
 #define RASTERS (sizeof rasters / sizeof *rasters)
 
@@ -97,8 +93,8 @@ static void make_wide(wf_raster *raster) {
     raster->pixel_aspect = raster->matrix == WF_601_525 ? wf_ratio(40, 33) : wf_ratio(16, 11);
 }
 
-/* Names with and without "-wide", by index < 2 * RASTERS; false where there is no such variant.
- */
+/* Finds each name with and without "-wide", by index < 2 * RASTERS; false where there is no
+ * such variant. */
 static bool variant_at(size_t index, wf_raster *out) {
     *out = rasters[index / 2];
     if (index % 2 == 0) return true;

@@ -1,3 +1,4 @@
+/* Video rasters: size, rate, scan and field order. */
 #ifndef WF_FILTERS_RASTER_RASTER_H
 #define WF_FILTERS_RASTER_RASTER_H
 
@@ -11,7 +12,7 @@ typedef enum wf_scan { WF_INTERLACED, WF_SEGMENTED, WF_PROGRESSIVE } wf_scan;
  * primaries: SMPTE-C for 525 lines, EBU for 625. */
 typedef enum wf_matrix { WF_601_525, WF_601_625, WF_709, WF_2020 } wf_matrix;
 
-/* A video raster: size, rate, scan and what its lines are called in the analogue system. */
+/* A video raster: size, rate, scan and what its lines are called in the analog system. */
 typedef struct wf_raster {
     char name[64];
     int width_px, lines;    /* of the whole frame */
@@ -33,10 +34,10 @@ const wf_raster *wf_raster_at(size_t index);
 
 /* A name of the table, a 525 or 625 name with "-wide", or
  * WxH@RATE(i|p|psf)[,tff|bff][,par=N:D][,601-525|601-625|709|2020].
- * False with a reason and, where one is near, a suggestion in why. */
+ * False with a reason, and with a suggestion where a name is close, in why. */
 bool wf_raster_parse(const char *text, wf_raster *out, char *why, size_t why_size);
 
-/* "601-525", "601-625", "709", "2020". */
+/* "601-525", "601-625", "709" or "2020". Static storage. */
 const char *wf_matrix_name(wf_matrix matrix);
 
 /* "top first", "bottom first", "one instant" (segmented) or "progressive". */
@@ -63,7 +64,7 @@ int wf_raster_line_step(const wf_raster *raster);
 int wf_raster_field_lines(const wf_raster *raster, int parity);
 int wf_raster_fields_per_frame(const wf_raster *raster); /* 1 or 2 */
 
-/* Field period Tf in seconds (resampling.md, Time): from one instant to the next. That of
+/* Field period Tf in seconds (filters/README.md, Time): from one instant to the next. That of
  * segmented frames is a frame's, that of pulldown a film frame's. */
 wf_rational wf_raster_field_period(const wf_raster *raster);
 

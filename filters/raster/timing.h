@@ -1,3 +1,4 @@
+/* Time: windows of fields and cells of subframes. */
 #ifndef WF_FILTERS_RASTER_TIMING_H
 #define WF_FILTERS_RASTER_TIMING_H
 
@@ -62,7 +63,7 @@ wf_window wf_timing_field(const wf_timing *timing, int64_t field, int lines);
 void wf_timing_seconds(const wf_timing *timing, int64_t field, int lines, double *from,
                        double *to);
 
-/* The part of cell k inside the window, in field periods from the window's centre. */
+/* The part of cell k inside the window, in field periods from the window's center. */
 void wf_timing_cell(const wf_timing *timing, int64_t field, int line, int64_t k, double *q0,
                     double *q1);
 
