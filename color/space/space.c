@@ -71,7 +71,7 @@ static void apply(double m[3][3], const double v[3], double out[3]) {
     for (int i = 0; i < 3; i++) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-/* By cofactors. */
+/* The inverse, by cofactors. */
 static void invert(double m[3][3], double out[3][3]) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -82,7 +82,7 @@ static void invert(double m[3][3], double out[3][3]) {
     for (int i = 0; i < 9; i++) out[i / 3][i % 3] /= determinant;
 }
 
-/* Columns are the primaries, each as bright as it is in white. */
+/* RGB to XYZ: the columns are the primaries, each as bright as it is in white. */
 static void primaries_matrix(const wf_chromaticities *c, double out[3][3]) {
     const double *xy[3] = {c->red, c->green, c->blue};
     double columns[3][3], inverse[3][3], white[3], share[3];

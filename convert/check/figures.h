@@ -6,8 +6,9 @@
 
 #include "convert/read/video.h"
 
-/* What interlace, its coding and its delivery do to a picture, in figures; README.md defines
- * them. Luminances are those of the raster's display, white being 1. */
+/* What interlace, its coding and its delivery do to a picture, in figures;
+ * convert/check/README.md defines them. Luminances are those of the raster's display, white
+ * being 1. */
 
 /* One plane against the reference: all its lines, or those of one field. */
 typedef struct wf_plane_difference {

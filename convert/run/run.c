@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "color/codes/r103.h"
 #include "convert/run/deep_source.h"
 #include "convert/run/dry_run.h"
 #include "convert/run/overwrite_check.h"
@@ -162,11 +163,9 @@ typedef weft_status run_fn(weft_job *job, wf_report *report, weft_error *err);
 static run_fn *const runs[] = {
     [WF_CONVERT] = run_convert, [WF_RENDER] = wf_run_render, [WF_TRACE] = wf_run_trace};
 
-#define R103_SHARE 0.01 /* EBU R 103: what may be outside */
-
 static void tell_outside(const weft_job *job, const wf_legal_counts *counts) {
     double share = (double)counts->outside / (double)(counts->pixels + 1);
-    if (share <= R103_SHARE) return;
+    if (share <= WF_R103_SHARE) return;
     wf_job_warn(job,
                 "--legalize r103: %.2g %% of the picture is still outside, and 1 %% may be",
                 100 * share);

@@ -174,8 +174,9 @@ static double plate_light(const void *user, double x, double y) {
     return (double)p->quarter[line * (p->geometry.width / 2) + column];
 }
 
-/* The figures that the specification gives for the zone plate through each aperture, from its
- * closed form; sharpness against the aperture's response; and the paper's section 6. */
+/* The zone plate through each aperture: flicker against its closed form, sharpness against the
+ * aperture's response, and composite coding as in section 6 of Amanatides and Mitchell, 1990.
+ */
 static void zone_plates(void **state) {
     (void)state;
     const zoneplate geometry = {720, 486, 10 / 11.0};

@@ -94,7 +94,7 @@ static void fill_flat(set *s, const double color[3]) {
         for (size_t i = 0; i < area; i++) s->in[p][i] = (float)color[p];
 }
 
-/* Every encoder with every decoder: call i of 12. */
+/* Combination i of 12 of the systems, encoders and decoders. */
 static wf_tv combination(int i) {
     return tv_of((wf_tv_system)(i % 2), (wf_tv_encoder)(i / 2 % 2), (wf_tv_decoder)(i / 4));
 }
@@ -266,8 +266,8 @@ static void bars_come_back(void **state) {
         }
 }
 
-/* Horizontal stripes of color: combs spread them over the neighbors' lines; away from there all
- * is well. */
+/* Horizontal stripes of color come back, but on the lines next to their edges, where combs mix
+ * in the neighbors' color. */
 static void stripes_come_back(void **state) {
     (void)state;
     const double colors[2][3] = {{0.3, -0.2, 0.3}, {0.6, 0.25, -0.1}};
@@ -351,8 +351,9 @@ static double fir_response(const wf_fir *fir, double f_mhz) {
     return sum;
 }
 
-/* Off the subcarrier: as the low-pass lets through (its image adds under 1 %); the filtered
- * encoder leaves a little half way down both slopes only. */
+/* Off the subcarrier the notch takes for color what the low-pass of chroma passes (its mirror
+ * image adds less than 1 %). After the filtered encoder little is left, half way down both
+ * slopes. */
 static void gratings_near_the_subcarrier(void **state) {
     (void)state;
     double most = 0;
@@ -370,8 +371,9 @@ static void gratings_near_the_subcarrier(void **state) {
     assert_true(most < 0.14);
 }
 
-/* Upright gratings are the same on all lines, the subcarrier turns by half a cycle: nothing is
- * left but what PAL's 25 Hz, 1.152 degrees in two lines, leaves. */
+/* Upright gratings are the same on all lines, while the subcarrier turns by half a cycle, so
+ * that combs take nothing of them for color but what PAL's 25 Hz offset (1.152 degrees in two
+ * lines) leaves. */
 static void combs_know_upright_gratings(void **state) {
     (void)state;
     const double off = 1.152 / 180 * M_PI, one_side = sin(off / 2), both = (1 - cos(off)) / 2;
@@ -408,8 +410,8 @@ static void chroma_is_narrow(void **state) {
 
 /* ---- Time and space ---- */
 
-/* What shimmers: a still picture's false colors are their opposites in the next frame (NTSC),
- * in the one after (PAL). */
+/* False colors shimmer: those of a still are their opposites in the next frame (NTSC) or in the
+ * one after it (PAL). */
 static void false_colors_alternate(void **state) {
     (void)state;
     for (int system = 0; system < 2; system++) {

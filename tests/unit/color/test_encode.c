@@ -1,5 +1,5 @@
-/* Codes: the formulas in long double for every depth, range and matrix; limits; what is no
- * number. */
+/* Codes against the formulas in long double for every depth, range and matrix, their limits,
+ * and what becomes of NaN. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -212,7 +212,7 @@ static void neutral_light_to_luma(void **state) {
 
 /* ---- Limits ---- */
 
-/* No reserved and no illegal code, whatever comes; what is no number is 0. */
+/* No input makes a reserved or an illegal code; NaN counts as 0. */
 static void nothing_gets_past_the_limits(void **state) {
     (void)state;
     const float bad[] = {NAN,   -NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX,
@@ -300,9 +300,9 @@ static void codes_by_the_book(void **state) {
     }
 }
 
-/* TPDF noise: whatever lies between two codes, their mean is it and their variance a quarter
- * (Lipshitz, Wannamaker and Vanderkooy 1992); the same line has the same noise in every frame,
- * and other lines and planes another. */
+/* With TPDF noise the mean of the codes is the signal, wherever it lies between two of them,
+ * and their variance is a quarter (Lipshitz, Wannamaker and Vanderkooy 1992). A line has the
+ * same noise in every frame, and every line and plane its own. */
 static void dither_has_no_steps(void **state) {
     (void)state;
     enum { COUNT = 40000 };

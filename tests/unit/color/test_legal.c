@@ -104,6 +104,19 @@ static double luma_of(wf_luma luma, const line *l, int x) {
 
 /* ---- EBU R 103 ---- */
 
+/* A pixel counts once, whichever of R', G' and B' are outside; limits themselves are inside. */
+static void outside_counts_pixels(void **unused) {
+    (void)unused;
+    const float low = (float)WF_R103_LOW, high = (float)WF_R103_HIGH, code = 1 / 876.0f;
+    const float r[] = {low, low - code, 0, high, high + code, 1};
+    const float g[] = {0, low - code, high + code, high, 0, 1};
+    const float b[] = {high, 2, 0, low, 0, low - code};
+    const float *const rgb[3] = {r, g, b};
+    assert_int_equal(wf_r103_outside(rgb, 6), 4);
+    assert_int_equal(wf_r103_outside(rgb, 1), 0);
+    assert_int_equal(wf_r103_outside(rgb, 0), 0);
+}
+
 static double share_outside(wf_encoding e, double most, wf_legal_counts *counts) {
     static coded c;
     line l;
@@ -403,6 +416,7 @@ static void grays_are_not_adjusted(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(outside_counts_pixels),
         cmocka_unit_test(little_is_left_outside),
         cmocka_unit_test(primaries_are_brought_within),
         cmocka_unit_test(legal_colors_stay),
