@@ -192,28 +192,6 @@ static void a_flat_line_stays_flat(void **state) {
     }
 }
 
-static void levels_agree(void **state) {
-    (void)state;
-    enum { COUNT = 301 };
-    const wf_chroma_filter *filter = wf_chroma_filter_of(WF_CHROMA_BT601);
-    float line[2 * COUNT], even[2][COUNT], odd[2][COUNT + 2 * WF_CHROMA_PAIRS] = {0},
-                                                              out[2][COUNT] = {0};
-    for (int n = 0; n < 2 * COUNT; n++) line[n] = (float)sin(n * n);
-    const wf_line_ops *ops, *levels[2] = {wf_line_ops_at(0)};
-    for (size_t level = 1; (ops = wf_line_ops_at(level)); level++) {
-        levels[1] = ops;
-        for (size_t count = 0; count <= COUNT; count += 43) {
-            for (int i = 0; i < 2; i++) {
-                float *o = odd[i] + WF_CHROMA_PAIRS;
-                levels[i]->deinterleave(even[i], o, line, count);
-                levels[i]->half_band(out[i], even[i], o, filter->pair, filter->pairs, count);
-            }
-            assert_memory_equal(odd[0], odd[1], sizeof odd[0]);
-            assert_memory_equal(out[0], out[1], sizeof out[0]);
-        }
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taps_add_up_to_one),
@@ -223,7 +201,6 @@ int main(void) {
         cmocka_unit_test(gratings_of_the_cheap_ones),
         cmocka_unit_test(edges_and_widths),
         cmocka_unit_test(a_flat_line_stays_flat),
-        cmocka_unit_test(levels_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

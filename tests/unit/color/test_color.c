@@ -446,34 +446,6 @@ static void damaged_channels(void **state) {
         }
 }
 
-/* ---- Levels ---- */
-
-/* The same bits at every level of the processor, at every length. */
-static void levels_agree(void **state) {
-    (void)state;
-    static float in[3][PIXELS], first[3][PIXELS], other[3][PIXELS];
-    random_colors(in, 4711);
-    for (int i = 0; i < 40; i++) in[i % 3][37 * i] = i % 4 ? INFINITY : NAN;
-    const wf_mix weights = {{0.3, 0.05}, {0.07, 0.012}, {0.016, 0.088}};
-    const wf_line_ops *ops, *slow = wf_line_ops_at(0);
-    for (size_t level = 1; (ops = wf_line_ops_at(level)); level++)
-        for (size_t count = 0; count < PIXELS; count += 1 + count / 2) {
-            memcpy(first, in, sizeof in);
-            memcpy(other, in, sizeof in);
-            slow->mix(&weights, first[0], first[1], first[2], count);
-            ops->mix(&weights, other[0], other[1], other[2], count);
-            assert_memory_equal(first, other, sizeof first);
-            for (int o = 0; o < OUTPUTS; o++) {
-                const wf_curve *curve = curve_of(o);
-                memcpy(first[0], in[0], sizeof in[0]);
-                memcpy(other[0], in[0], sizeof in[0]);
-                slow->curve[curve->kind](curve, first[0], count);
-                ops->curve[curve->kind](curve, other[0], count);
-                assert_memory_equal(first[0], other[0], sizeof first[0]);
-            }
-        }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_names),
@@ -491,7 +463,6 @@ int main(void) {
         cmocka_unit_test(linear_round_trips),
         cmocka_unit_test(neutrals_stay_neutral),
         cmocka_unit_test(damaged_channels),
-        cmocka_unit_test(levels_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

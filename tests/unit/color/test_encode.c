@@ -368,32 +368,6 @@ static void dither_stays_within(void **state) {
     }
 }
 
-static void levels_agree(void **state) {
-    (void)state;
-    enum { COUNT = 4001 };
-    static float in[3][COUNT], first[3][COUNT], other[3][COUNT];
-    static uint16_t code[2][COUNT];
-    uint64_t seed = 5;
-    for (int n = 0; n < 3 * COUNT; n++)
-        in[n % 3][n / 3] = n % 97  ? (float)(random_unit(&seed) * 1.3 - 0.1)
-                           : n % 2 ? NAN
-                                   : INFINITY;
-    const wf_ycbcr luma = {0.2126f, 0.0722f, 0.53887f, 0.635f};
-    const wf_quantizer q = {876, 64, 4, 1019};
-    const wf_line_ops *ops, *slow = wf_line_ops_at(0);
-    for (size_t level = 1; (ops = wf_line_ops_at(level)); level++)
-        for (size_t count = 0; count < COUNT; count += 1 + count / 2) {
-            memcpy(first, in, sizeof in);
-            memcpy(other, in, sizeof in);
-            slow->quantize(&q, code[0], first[0], count);
-            ops->quantize(&q, code[1], other[0], count);
-            assert_memory_equal(code[0], code[1], sizeof code[0]);
-            slow->ycbcr(&luma, first[0], first[1], first[2], count);
-            ops->ycbcr(&luma, other[0], other[1], other[2], count);
-            assert_memory_equal(first, other, sizeof first);
-        }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neutrals_are_exact),
@@ -405,7 +379,6 @@ int main(void) {
         cmocka_unit_test(codes_by_the_book),
         cmocka_unit_test(dither_has_no_steps),
         cmocka_unit_test(dither_stays_within),
-        cmocka_unit_test(levels_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,7 +94,7 @@ static double h_at(const wf_aperture *a, double tau, const double z[3]) {
     return wf_aperture_value(a, tau, z[0], z[1], z[2]);
 }
 
-/* The response as the normalised Fourier sum of h on a fine grid. */
+/* The response as the normalized Fourier sum of h on a fine grid. */
 static double fourier_sum(const wf_aperture *a, double tau, const double f[3]) {
     enum { N = 64 };
     double real = 0, total = 0;
@@ -156,7 +156,7 @@ static void notch_is_a_member_of_the_family(void **state) {
     }
 }
 
-/* At one sample a line: box is 1/4 1/2 1/4, notch .0104 .25 .4792 .25 .0104 (resampling.md). */
+/* At one sample a line: box is 1/4 1/2 1/4, notch .0104 .25 .4792 .25 .0104. */
 static void kernels_at_one_sample_a_line(void **state) {
     (void)state;
     wf_aperture box = named("box"), notch = named("notch");

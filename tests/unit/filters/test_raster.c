@@ -1,4 +1,4 @@
-/* Rasters against the table of rasters.md, typed here once more; orders against line maps. */
+/* Rasters against a table typed from the standards once more; orders against line maps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -138,7 +138,7 @@ static void line_maps(void **state) {
             }
 }
 
-/* 486 lines to 480 by dropping lines above and below (rasters.md): each dropped line at the top
+/* 486 lines to 480 by dropping lines above and below: each dropped line at the top
  * makes the other field's line the top one. */
 static void windows_of_480_lines(void **state) {
     (void)state;

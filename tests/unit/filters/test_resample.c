@@ -317,7 +317,7 @@ static void awkward_ratios(void **state) {
         }
 }
 
-static void time_cells_centred_skewed_and_sparse(void **state) {
+static void time_cells_centered_skewed_and_sparse(void **state) {
     (void)state;
     for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
         for (int variant = 0; variant < 4; variant++) {
@@ -440,53 +440,11 @@ static void batches_do_not_change_bits(void **state) {
     }
 }
 
-/* ---- Row operations: every instruction set against the plainest one ---- */
-
-static void row_operations_agree(void **state) {
-    (void)state;
-    enum { COUNT = 1003 };
-    static uint16_t half[65536 + COUNT];
-    static float real[COUNT], lane0[4 * COUNT], lane1[4 * COUNT];
-    static double a[65536], b[65536];
-    uint32_t seed = 3;
-    for (int i = 0; i < 65536; i++) half[i] = (uint16_t)i;
-    for (int i = 0; i < COUNT; i++) real[i] = extreme(&seed);
-    const wf_row_ops *plain_ops = wf_row_ops_at(0);
-    for (size_t n = 1; wf_row_ops_at(n); n++) {
-        const wf_row_ops *ops = wf_row_ops_at(n);
-        for (int i = 0; i < 65536; i++) a[i] = b[i] = uniform(&seed);
-        plain_ops->add_half(a, half, 0.3, 65536);
-        ops->add_half(b, half, 0.3, 65536);
-        for (int i = 0; i < 65536; i++)
-            assert_true(a[i] == b[i] || (isnan(a[i]) && isnan(b[i])));
-        for (size_t count = 0; count < COUNT; count += 1 + count / 3) {
-            for (int i = 0; i < COUNT; i++) a[i] = b[i] = uniform(&seed);
-            plain_ops->add_float(a, real, 0.7, count), ops->add_float(b, real, 0.7, count);
-            plain_ops->add_row(a, real, count), ops->add_row(b, real, count);
-            assert_memory_equal(a, b, COUNT * sizeof *a);
-            plain_ops->set_rows(a, real, real + 1, count / 2),
-                ops->set_rows(b, real, real + 1, count / 2);
-            plain_ops->set_rows(a, real, NULL, count / 3),
-                ops->set_rows(b, real, NULL, count / 3);
-            plain_ops->add_tap(a, a + 300, 0.1, count / 4),
-                ops->add_tap(b, b + 300, 0.1, count / 4);
-            assert_memory_equal(a, b, COUNT * sizeof *a);
-            for (size_t lanes = 1; lanes <= 4; lanes++) {
-                size_t length = count / lanes + 2;
-                plain_ops->split(lane0, a, lanes, length, count);
-                ops->split(lane1, b, lanes, length, count);
-                assert_memory_equal(lane0, lane1, lanes * length * sizeof *lane0);
-            }
-        }
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(row_operations_agree),
         cmocka_unit_test(every_aperture_position_and_width),
         cmocka_unit_test(awkward_ratios),
-        cmocka_unit_test(time_cells_centred_skewed_and_sparse),
+        cmocka_unit_test(time_cells_centered_skewed_and_sparse),
         cmocka_unit_test(data_windows),
         cmocka_unit_test(fits),
         cmocka_unit_test(constants_stay_constant),

@@ -1,5 +1,5 @@
-/* Responses through the public interface against the formulas of resampling.md, and what the
- * weights of other ratios leave at half a cycle a line against a sum of their own. */
+/* Responses through the public interface against the formulas of filters/README.md, and what
+ * the weights of other ratios leave at half a cycle a line against a sum of their own. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@ static double sinc(double z) {
     return fabs(z) < 1e-9 ? 1 : sin(M_PI * z) / (M_PI * z);
 }
 
-/* ---- Kernels, written down from resampling.md once more ---- */
+/* ---- Kernels, written down once more ---- */
 
 static double line_h(double v) {
     return fabs(v) <= 0.5;
@@ -188,8 +188,8 @@ static void residues_are_the_worst_of_all_lines(void **state) {
             }
 }
 
-/* The figures that resampling.md gives for half a cycle a line, in whole decibels. */
-static void figures_of_the_specification(void **state) {
+/* The figures of filters/README.md for half a cycle a line, in whole decibels. */
+static void figures_of_residues(void **state) {
     (void)state;
     const struct {
         const char *name;
@@ -229,7 +229,7 @@ int main(void) {
         cmocka_unit_test(widths_unless_told),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(residues_are_the_worst_of_all_lines),
-        cmocka_unit_test(figures_of_the_specification),
+        cmocka_unit_test(figures_of_residues),
         cmocka_unit_test(whole_ratios_leave_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Irregular samples against the sums of resampling.md written down pixel by pixel. */
+/* Irregular samples against the sums of filters/README.md written down pixel by pixel. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

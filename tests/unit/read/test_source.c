@@ -411,50 +411,6 @@ static void not_finite_can_be_an_error(void **state) {
     wf_subframe_close(s);
 }
 
-/* ---- The byte loops ---- */
-
-/* What the loops undo, written down as the file format has it. */
-static void split_and_difference(uint8_t *out, const uint8_t *in, size_t count) {
-    size_t evens = (count + 1) / 2;
-    for (size_t i = 0; i < count; i++) out[i % 2 ? evens + i / 2 : i / 2] = in[i];
-    for (size_t i = count; i-- > 1;) out[i] = (uint8_t)(out[i] - out[i - 1] + 128);
-}
-
-static void merge_at_every_level(void **state) {
-    (void)state;
-    static uint8_t in[5000], packed[5000], out[5001];
-    for (size_t level = 0; wf_unzip_ops_at(level); level++)
-        for (size_t count = 1; count < 5000; count += count < 300 ? 1 : 97) {
-            const wf_unzip_ops *ops = wf_unzip_ops_at(level);
-            uint16_t odd = 0;
-            for (size_t i = 0; i < count; i++) {
-                in[i] = (uint8_t)mix((uint32_t)(i + 17 * count));
-                if (i % 2 && count % 3 && (in[i] & 0x7c) == 0x7c) in[i] &= 0x0f;
-                odd |= i % 2 && (in[i] & 0x7c) == 0x7c;
-            }
-            split_and_difference(packed, in, count);
-            out[count] = 0xa5;
-            assert_int_equal(ops->merge(out, packed, count), odd);
-            assert_memory_equal(out, in, count);
-            assert_int_equal(out[count], 0xa5);
-        }
-}
-
-static void odd_samples_at_every_level(void **state) {
-    (void)state;
-    uint16_t half[100] = {0};
-    float value[100] = {0};
-    for (size_t level = 0; wf_unzip_ops_at(level); level++)
-        for (size_t at = 0; at < 100; at++) {
-            const wf_unzip_ops *ops = wf_unzip_ops_at(level);
-            half[at] = at % 2 ? 0xfc00 : 0x7e01;
-            value[at] = at % 2 ? -INFINITY : NAN;
-            assert_true(ops->odd_halves(half, 100) && ops->odd_floats(value, 100));
-            half[at] = 0xfbff, value[at] = 3e38f;
-            assert_false(ops->odd_halves(half, 100) || ops->odd_floats(value, 100));
-        }
-}
-
 /* ---- Damage ---- */
 
 /* Reads everything there is to read; a failure must say which file. Returns whether it failed.
@@ -591,8 +547,6 @@ int main(void) {
         cmocka_unit_test(equal_chunks_are_reused),
         cmocka_unit_test(not_finite),
         cmocka_unit_test(not_finite_can_be_an_error),
-        cmocka_unit_test(merge_at_every_level),
-        cmocka_unit_test(odd_samples_at_every_level),
         cmocka_unit_test(truncated_and_flipped),
         cmocka_unit_test(promises_it_cannot_keep),
         cmocka_unit_test(damaged_files),

@@ -35,7 +35,7 @@ static double steps(const reference *r, double v) {
 }
 
 /* Integral over u in [u0, u1] and q in [q0, q1] at height v, u and q from the aperture's
- * centre. */
+ * center. */
 static double slice(const reference *r, const double u[2], const double q[2], double v) {
     double half_u = r->step_count ? r->half_u : 0.5;
     double across = length_within(u[0], u[1], -half_u, half_u), along = q[1] - q[0];
@@ -107,7 +107,7 @@ static double clamp(double z, double low, double high) {
     return fmin(fmax(z, low), high);
 }
 
-/* Part of subframe k's time cell in the window of line j, from the window's centre, in field
+/* Part of subframe k's time cell in the window of line j, from the window's center, in field
  * periods. 0 where they do not meet; 2 where the window is an instant, or meets nothing, and
  * takes this subframe alone. */
 static int instant(const reference *r, int64_t field, int j, int k, double q[2]) {
@@ -148,7 +148,7 @@ static void add_cell(const reference *r, int k, int a, int b, int channel, doubl
     s->alpha += w * alpha;
 }
 
-/* Cell edges from a centre; cells of padding end where the picture ends. */
+/* Cell edges from a center; cells of padding end where the picture ends. */
 static void edges(double origin, double cell, int a, int cells, double center, double end,
                   int padded, double out[2]) {
     out[0] = origin + a * cell;
