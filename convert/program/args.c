@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "convert/base/fail.h"
+#include "convert/job/options.h"
 #include "convert/program/cmd.h"
 #include "filters/base/spelling.h"
 
@@ -22,13 +23,6 @@ static const wf_cmd_option *letter_option(const wf_cmd *cmd, char letter) {
     return NULL;
 }
 
-static bool takes_job_option(const wf_cmd *cmd, const char *name) {
-    if (!cmd->job_options) return true;
-    for (const char *const *taken = cmd->job_options; *taken; taken++)
-        if (!strcmp(*taken, name)) return true;
-    return false;
-}
-
 bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter) {
     *letter = 0;
     if (i < cmd->option_count) {
@@ -38,7 +32,7 @@ bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *lette
     }
     i -= cmd->option_count;
     for (size_t j = 0; weft_option_at(j, out); j++)
-        if (takes_job_option(cmd, out->name) && i-- == 0) return true;
+        if ((wf_option_commands(j) & cmd->taken_by) && i-- == 0) return true;
     return false;
 }
 

@@ -31,8 +31,7 @@ typedef struct wf_cmd {
     const char *notes;    /* what help prints after the options; NULL: nothing */
     const wf_cmd_option *options;
     size_t option_count;
-    const char *const *job_options; /* names of weft_job_set's that it takes, ended by NULL;
-                                       NULL: every one */
+    unsigned taken_by; /* the WF_TAKEN_BY_ bit of the job's options that it takes; 0: none */
     weft_status (*run)(const struct wf_cmd *cmd, int argc, char **argv, weft_error *err);
 } wf_cmd;
 

@@ -310,8 +310,6 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     return WEFT_OK;
 }
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_completion = {
     .name = "completion",
     .operands = SHELLS,
@@ -319,6 +317,5 @@ const wf_cmd wf_cmd_completion = {
     .text = "Prints a script that has a shell complete commands, options and their values.\n"
             "\n"
             "  source <(weft completion bash)\n",
-    .job_options = no_job_options,
     .run = run,
 };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "convert/base/fail.h"
+#include "convert/job/options.h"
 #include "convert/program/cmd.h"
 #include "convert/run/broadcast.h"
 
@@ -141,9 +142,6 @@ static const wf_cmd_option options[] = {
      .offset = offsetof(composite_state, quiet)},
 };
 
-static const char *const job_options[] = {"bits",     "range",      "chroma",    "legalize",
-                                          "timecode", "max-memory", "overwrite", NULL};
-
 const wf_cmd wf_cmd_composite = {
     .name = "composite",
     .operands = "IN -o OUTPUT",
@@ -173,6 +171,6 @@ const wf_cmd wf_cmd_composite = {
         "they do on a set. U and V are 1.5 dB down at 1.3 MHz, and done at 2.4 MHz.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = job_options,
+    .taken_by = WF_TAKEN_BY_COMPOSITE,
     .run = run,
 };

@@ -1,10 +1,6 @@
 /* weft convert: subframes or sample buffers to interlaced video. */
+#include "convert/job/options.h"
 #include "convert/program/job_command.h"
-
-static const char *const job_options[] = {
-    WF_JOB_OUTPUT,   WF_JOB_FIELDS,   "fit",      "input-par",    "background",
-    "subframe-rate", "subframe-time", "frames",   "layer",        "part",
-    "on-missing",    "fix-nan",       "on-empty", WF_JOB_RUNNING, NULL};
 
 const wf_cmd wf_cmd_convert = {
     .name = "convert",
@@ -33,6 +29,6 @@ const wf_cmd wf_cmd_convert = {
     .notes = wf_job_command_notes,
     .options = wf_job_command_options,
     .option_count = WF_JOB_COMMAND_OPTIONS,
-    .job_options = job_options,
+    .taken_by = WF_TAKEN_BY_CONVERT,
     .run = wf_job_command_run,
 };

@@ -6,6 +6,7 @@
 
 #include "convert/base/fail.h"
 #include "convert/job/job.h"
+#include "convert/job/options.h"
 #include "convert/program/cmd.h"
 #include "filters/base/spelling.h"
 
@@ -109,8 +110,6 @@ static const wf_cmd_option options[] = {
     {{"json", NULL, NULL, "Print JSON.", group}, .offset = offsetof(filters_state, json)},
 };
 
-static const char *const job_options[] = {"raster", "temporal-width", NULL};
-
 const wf_cmd wf_cmd_filters = {
     .name = "filters",
     .operands = "[NAME | design KEY=VALUE,..]",
@@ -145,6 +144,6 @@ const wf_cmd wf_cmd_filters = {
         "names. Responses are never below -0.05 beyond 0.25, and zero at 0.5.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = job_options,
+    .taken_by = WF_TAKEN_BY_FILTERS,
     .run = run,
 };

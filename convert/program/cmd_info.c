@@ -170,8 +170,6 @@ static const wf_cmd_option options[] = {
     {{"json", NULL, NULL, "Print JSON.", "Options"}, .offset = offsetof(info_state, json)},
 };
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_info = {
     .name = "info",
     .operands = "FILE...",
@@ -183,6 +181,5 @@ const wf_cmd wf_cmd_info = {
             "  weft info shot.####.exr out.y4m\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = no_job_options,
     .run = run,
 };

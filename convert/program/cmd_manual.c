@@ -235,8 +235,6 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     return WEFT_OK;
 }
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_manual = {
     .name = "manual",
     .operands = "",
@@ -244,6 +242,5 @@ const wf_cmd wf_cmd_manual = {
     .text = "Prints the manual page of all commands.\n"
             "\n"
             "  weft manual | man -l -\n",
-    .job_options = no_job_options,
     .run = run,
 };

@@ -243,8 +243,6 @@ static const wf_cmd_option options[] = {
      .offset = STATE(json)},
 };
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_measure = {
     .name = "measure",
     .operands = "FILE...",
@@ -280,6 +278,5 @@ const wf_cmd wf_cmd_measure = {
         "--raster.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = no_job_options,
     .run = run,
 };

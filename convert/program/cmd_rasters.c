@@ -69,8 +69,6 @@ static const wf_cmd_option options[] = {
     {{"json", NULL, NULL, "Print JSON.", "Options"}, .offset = offsetof(rasters_state, json)},
 };
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_rasters = {
     .name = "rasters",
     .operands = "[NAME]",
@@ -83,6 +81,5 @@ const wf_cmd wf_cmd_rasters = {
         "  weft rasters 180x122@30i,tff\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = no_job_options,
     .run = run,
 };

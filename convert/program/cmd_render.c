@@ -1,8 +1,6 @@
 /* weft render: a scene straight to interlaced video. */
+#include "convert/job/options.h"
 #include "convert/program/job_command.h"
-
-static const char *const job_options[] = {WF_JOB_OUTPUT, WF_JOB_FIELDS,  "frames", WF_JOB_SCENE,
-                                          "error",       WF_JOB_RUNNING, NULL};
 
 const wf_cmd wf_cmd_render = {
     .name = "render",
@@ -28,6 +26,6 @@ const wf_cmd wf_cmd_render = {
     .notes = wf_job_command_notes,
     .options = wf_job_command_options,
     .option_count = WF_JOB_COMMAND_OPTIONS,
-    .job_options = job_options,
+    .taken_by = WF_TAKEN_BY_RENDER,
     .run = wf_job_command_run,
 };

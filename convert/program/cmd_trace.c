@@ -1,10 +1,6 @@
 /* weft trace: a scene to subframes or sample buffers. */
+#include "convert/job/options.h"
 #include "convert/program/job_command.h"
-
-static const char *const job_options[] = {
-    "raster",    "aperture", "temporal-width", "shutter-angle", "shutter-position",
-    "scan-skew", "frames",   WF_JOB_SCENE,     "oversample",    WF_JOB_RUNNING,
-    NULL};
 
 const wf_cmd wf_cmd_trace = {
     .name = "trace",
@@ -26,6 +22,6 @@ const wf_cmd wf_cmd_trace = {
     .notes = wf_job_command_notes,
     .options = wf_job_command_options,
     .option_count = WF_JOB_COMMAND_OPTIONS,
-    .job_options = job_options,
+    .taken_by = WF_TAKEN_BY_TRACE,
     .run = wf_job_command_run,
 };

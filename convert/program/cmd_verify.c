@@ -152,8 +152,6 @@ static const wf_cmd_option options[] = {
      .offset = STATE(json)},
 };
 
-static const char *const no_job_options[] = {NULL};
-
 const wf_cmd wf_cmd_verify = {
     .name = "verify",
     .operands = "FILE... [--profile P]",
@@ -173,6 +171,5 @@ const wf_cmd wf_cmd_verify = {
         "sense.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .job_options = no_job_options,
     .run = run,
 };

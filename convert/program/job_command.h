@@ -13,14 +13,4 @@ extern const char wf_job_command_notes[];
 /* A wf_cmd's run: reads job files and arguments into a job, runs it, and writes its report. */
 weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_error *err);
 
-/* Names of a job's options that several of the commands take. */
-#define WF_JOB_OUTPUT                                                                          \
-    "raster", "aperture", "temporal-width", "shutter-angle", "shutter-position", "scan-skew",  \
-        "timecode", "ocio", "from", "to", "display", "view", "look", "bits", "range",          \
-        "chroma", "legalize", "dither", "codec", "audio"
-#define WF_JOB_FIELDS "cadence", "fields"
-#define WF_JOB_RUNNING                                                                         \
-    "chunk", "threads", "skip", "max-memory", "overwrite", "resume", "dry-run"
-#define WF_JOB_SCENE "samples", "sampler", "seed", "set", "scene-steps", "scene-memory"
-
 #endif

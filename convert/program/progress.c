@@ -2,6 +2,7 @@
 #include "convert/program/progress.h"
 
 #include <inttypes.h>
+#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,13 +81,20 @@ static void show_alf(wf_meter *meter, const weft_progress *p) {
     meter->percent = percent;
 }
 
+static double thousandths(double value) {
+    return round(1000 * value) / 1000;
+}
+
 /* Writes a JSON object a line, at most ten a second. */
 static void show_json(wf_meter *meter, const weft_progress *p) {
     if (meter->shown_s >= 0 && p->seconds - meter->shown_s < 0.1 && !finished(p)) return;
-    fprintf(stderr,
-            "{\"stage\": \"%s\", \"frames_done\": %" PRId64 ", \"frames_total\": %" PRId64
-            ", \"seconds\": %.3f, \"frames_per_second\": %.3f}\n",
-            p->stage, p->frames_done, p->frames_total, p->seconds, rate_of(p));
+    json_t *line = json_pack("{s:s, s:I, s:I, s:f, s:f}", "stage", p->stage, "frames_done",
+                             (json_int_t)p->frames_done, "frames_total",
+                             (json_int_t)p->frames_total, "seconds", thousandths(p->seconds),
+                             "frames_per_second", thousandths(rate_of(p)));
+    if (line) json_dumpf(line, stderr, JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(12));
+    if (line) fputc('\n', stderr);
+    json_decref(line);
     meter->shown_s = p->seconds;
 }
 
