@@ -75,7 +75,7 @@ double wf_scale_within(const wf_scale *s, double value) {
 }
 
 static void add_tick(wf_scale *s, double value) {
-    if (s->ticks < WF_MOST_TICKS) s->tick[s->ticks++] = value;
+    if (s->ticks < WF_PLOT_MOST_TICKS) s->tick[s->ticks++] = value;
 }
 
 /* 1, 2 and 5 of every decade, or decades alone where there are many. */

@@ -24,13 +24,11 @@ typedef struct wf_look {
     double pixels_per_unit; /* of a PNG */
 } wf_look;
 
-#define WF_MOST_TICKS 64
-
 /* An axis whose ends and ticks are settled, over a stretch of the picture. */
 typedef struct wf_scale {
     double low, high, start, end; /* start, end: where low and high are */
     bool log;
-    double tick[WF_MOST_TICKS];
+    double tick[WF_PLOT_MOST_TICKS];
     size_t ticks;
     int digits;
 } wf_scale;

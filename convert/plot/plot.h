@@ -60,7 +60,8 @@ typedef struct wf_plot_item {
     double least, most; /* values that have the darkest and the brightest color */
 } wf_plot_item;
 
-#define WF_PLOT_SERIES 8
+#define WF_PLOT_SERIES     8
+#define WF_PLOT_MOST_TICKS 64
 
 /* One y axis and what is drawn over it. */
 typedef struct wf_plot_panel {
