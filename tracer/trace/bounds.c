@@ -1,3 +1,4 @@
+/* Boxes of solids over a window of time, and shafts of rays. */
 #include "tracer/trace/bounds.h"
 
 #include <math.h>
@@ -230,14 +231,14 @@ wf_shaft wf_shaft_place(const wf_affine *map, const wf_shaft *f) {
     return out;
 }
 
-/* room + s d >= 0: of the s in from..to, those that hold. inverse: 1 / d. */
-static void keep(double room, double d, double inverse, double *from, double *to) {
-    double at = -room * inverse;
+/* Leaves of from..to those s at which over + s d >= 0. inverse: 1 / d. */
+static void keep(double over, double d, double inverse, double *from, double *to) {
+    double at = -over * inverse;
     if (d > 0) {
-        if (room < 0) *from = most(*from, at);
+        if (over < 0) *from = most(*from, at);
     } else if (d < 0) {
-        *to = room < 0 ? -1 : least(*to, at);
-    } else if (room < 0) {
+        *to = over < 0 ? -1 : least(*to, at);
+    } else if (over < 0) {
         *to = -1;
     }
 }

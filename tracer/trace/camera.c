@@ -1,6 +1,9 @@
+/* Rays and shafts of rays from a camera that may move. */
+#include "tracer/trace/camera.h"
+
 #include <math.h>
 
-#include "tracer/trace/inside.h"
+#include "tracer/trace/carry.h"
 
 /* Picture coordinates: from the middle, in units of half the picture's height, y up. */
 static double across(const wf_tracer *t, double x) {

@@ -1,7 +1,8 @@
+/* Rays into the spaces of operators, and normals out of them. */
+#include "tracer/trace/carry.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-#include "tracer/trace/inside.h"
 
 void wf_carry_times(const wf_tracer *t, const wf_packet *packet, const wf_op *op,
                     double *dt_s) {
@@ -80,13 +81,14 @@ static wf_carried *find_carried(const wf_trace_scratch *s, int op) {
 }
 
 static wf_carried *new_carried(wf_trace_scratch *s, int op) {
-    if (s->carried_count == s->carried_room) {
-        int room = 2 * s->carried_room + 8;
-        wf_carried **grown = realloc(s->carried, (size_t)room * sizeof *grown);
+    if (s->carried_count == s->carried_capacity) {
+        int capacity = 2 * s->carried_capacity + 8;
+        wf_carried **grown = realloc(s->carried, (size_t)capacity * sizeof *grown);
         if (!grown) return NULL;
-        memset(grown + s->carried_room, 0, (size_t)(room - s->carried_room) * sizeof *grown);
+        memset(grown + s->carried_capacity, 0,
+               (size_t)(capacity - s->carried_capacity) * sizeof *grown);
         s->carried = grown;
-        s->carried_room = room;
+        s->carried_capacity = capacity;
     }
     wf_carried **at = &s->carried[s->carried_count];
     if (!*at) *at = aligned_alloc(64, (sizeof **at + 63) / 64 * 64);

@@ -41,7 +41,7 @@ typedef struct wf_csg_entry {
 
 typedef struct wf_csg_ops {
     /* Finds the nearest surface with s > 0 and nearer than what hits hold (or as near, of a
-     * solid that comes before). stack: room for the program's most_stack entries. */
+     * solid that comes before). stack: as many entries as the program's most_stack. */
     void (*nearest)(const wf_csg *csg, const double *rounding, wf_csg_entry *stack,
                     wf_hits *hits);
     /* Whether the object holds the point at s of each ray, as bytes 0 and 1. */

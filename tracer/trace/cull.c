@@ -1,3 +1,4 @@
+/* What is left of the parts of a scene where rays can reach only some of their solids. */
 #include "tracer/trace/cull.h"
 
 #include <math.h>
@@ -13,7 +14,12 @@ void wf_culls_free(wf_culls *c) {
     *c = (wf_culls){0};
 }
 
-static bool room(void *pointer, size_t *have, size_t need, size_t each) {
+void wf_culls_clear(wf_culls *c) {
+    c->part_count = c->step_count = c->solid_count = 0;
+}
+
+/* Makes an array hold `need` items; pointer: to the pointer to them. */
+static bool reserve(void *pointer, size_t *have, size_t need, size_t each) {
     if (need <= *have) return true;
     void *old, *grown;
     memcpy(&old, pointer, sizeof old);
@@ -25,10 +31,10 @@ static bool room(void *pointer, size_t *have, size_t need, size_t each) {
     return true;
 }
 
-static bool make_room(wf_culls *c, size_t steps, size_t solids) {
-    return room(&c->part, &c->part_room, c->part_count + 1, sizeof *c->part) &&
-           room(&c->step, &c->step_room, c->step_count + steps, sizeof *c->step) &&
-           room(&c->solid, &c->solid_room, c->solid_count + solids, sizeof *c->solid);
+static bool reserve_part(wf_culls *c, size_t steps, size_t solids) {
+    return reserve(&c->part, &c->part_capacity, c->part_count + 1, sizeof *c->part) &&
+           reserve(&c->step, &c->step_capacity, c->step_count + steps, sizeof *c->step) &&
+           reserve(&c->solid, &c->solid_capacity, c->solid_count + solids, sizeof *c->solid);
 }
 
 /* ---- Programs ---- */
@@ -106,7 +112,7 @@ static void push_operation(culling *c, const wf_step *step) {
 static bool cull(culling *c, int part, const program *p) {
     wf_culls *out = c->out;
     size_t most = (size_t)p->step_count;
-    if (!make_room(out, most, most)) return false;
+    if (!reserve_part(out, most, most)) return false;
     size_t first_step = out->step_count;
     c->first_solid = out->solid_count;
     c->top = 0;
@@ -171,4 +177,36 @@ void wf_culls_sort(wf_culls *c) {
             c->part[at] = c->part[at - 1];
         c->part[at] = moved;
     }
+}
+
+/* ---- Joining ---- */
+
+/* Adds a part's program and solids, which then count behind those there are. */
+static bool append(const wf_culls *from, const wf_culled *part, wf_culls *out) {
+    size_t steps = (size_t)part->step_count, solids = (size_t)part->solid_count;
+    if (!reserve_part(out, steps + 1, solids)) return false;
+    for (size_t k = 0; k < steps; k++) {
+        wf_step step = from->step[part->step + k];
+        if (step.kind == WF_STEP_SOLID) step.count += (int)out->solid_count;
+        out->step[out->step_count++] = step;
+    }
+    memcpy(out->solid + out->solid_count, from->solid + part->solid,
+           solids * sizeof *out->solid);
+    out->solid_count += solids;
+    return true;
+}
+
+bool wf_culls_join(const wf_culls *from, const wf_part *parts, int object, wf_culls *out) {
+    int operands = 0;
+    wf_culls_clear(out);
+    for (size_t n = 0; n < from->part_count; n++) {
+        if (parts[from->part[n].part].object != object) continue;
+        if (!append(from, &from->part[n], out)) return false;
+        operands++;
+    }
+    if (!operands) return false;
+    if (operands > 1) out->step[out->step_count++] = (wf_step){WF_STEP_UNION, operands};
+    out->part[out->part_count++] =
+        (wf_culled){.step_count = (int)out->step_count, .solid_count = (int)out->solid_count};
+    return true;
 }

@@ -25,7 +25,7 @@ typedef struct wf_culls {
     wf_culled *part;
     wf_step *step;
     int *solid; /* the scene's solids */
-    size_t part_count, part_room, step_count, step_room, solid_count, solid_room;
+    size_t part_count, part_capacity, step_count, step_capacity, solid_count, solid_capacity;
 } wf_culls;
 
 /* What culling looks at. */
@@ -46,6 +46,7 @@ typedef struct wf_cull_operand {
 } wf_cull_operand;
 
 void wf_culls_free(wf_culls *culls);
+void wf_culls_clear(wf_culls *culls); /* keeps the memory */
 
 /* Adds a part of the scene as far as the shaft can meet it. False: no memory. */
 bool wf_cull_part(const wf_cull_scene *scene, int part, wf_cull_operand *stack, wf_culls *out);
@@ -56,5 +57,9 @@ bool wf_cull_again(const wf_cull_scene *scene, const wf_culls *from, wf_cull_ope
 
 /* Nearest first. */
 void wf_culls_sort(wf_culls *culls);
+
+/* Makes out a list of one part: the union of all parts of an object that are in a list. False:
+ * no memory. */
+bool wf_culls_join(const wf_culls *from, const wf_part *parts, int object, wf_culls *out);
 
 #endif

@@ -1,81 +1,11 @@
+/* The nearest surface along each ray of a packet. */
+#include "tracer/trace/nearest.h"
+
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "tracer/trace/inside.h"
-
-/* ---- What can be met ---- */
-
-typedef struct finding {
-    const wf_tracer *t;
-    wf_trace_scratch *s;
-    const wf_packet *packet;
-    const wf_shaft *shaft;
-} finding;
-
-static bool meets_bounds(void *user, int solid, wf_stretch *stretch) {
-    const finding *f = user;
-    return wf_shaft_meets(f->shaft, &f->t->solid_bounds[solid], stretch);
-}
-
-/* In the solid's own space its box is tight, and a half-space has one. */
-static bool meets_form(void *user, int index, wf_stretch *stretch) {
-    const finding *f = user;
-    const wf_solid *solid = &f->t->scene->solids[index];
-    const wf_shaft *outer = wf_carry_shaft(f->t, f->s, f->packet, f->shaft, solid->op);
-    if (!outer) {
-        f->s->failed = true;
-        return false;
-    }
-    wf_shaft own = wf_shaft_place(&solid->inverse, outer);
-    wf_bounds box = wf_solid_type_of(solid->kind)->bounds(solid, f->t->scene->planes);
-    return wf_shaft_meets(&own, &box, stretch);
-}
-
-static wf_cull_scene cull_scene(finding *f) {
-    return (wf_cull_scene){f->t->scene->steps,
-                           f->t->parts,
-                           f->t->part_bounds,
-                           f->t->skip ? f->shaft : NULL,
-                           f->packet ? meets_form : meets_bounds,
-                           f};
-}
-
-static int find_parts(const finding *f, int *found) {
-    const wf_tracer *t = f->t;
-    int count = t->endless_count;
-    for (int n = 0; !t->skip && n < t->part_count; n++) found[n] = n;
-    if (!t->skip) return t->part_count;
-    memcpy(found, t->endless, (size_t)count * sizeof *found);
-    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, found + count);
-    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, found + count);
-}
-
-static void clear(wf_culls *c) {
-    c->part_count = c->step_count = c->solid_count = 0;
-}
-
-bool wf_find(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
-             const wf_shaft *shaft, wf_culls *out) {
-    finding f = {t, s, packet, shaft};
-    const wf_cull_scene scene = cull_scene(&f);
-    int count = find_parts(&f, s->found);
-    clear(out);
-    for (int n = 0; n < count; n++)
-        if (!wf_cull_part(&scene, s->found[n], s->stack, out)) return false;
-    wf_culls_sort(out);
-    return !s->failed;
-}
-
-bool wf_find_again(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
-                   const wf_shaft *shaft, const wf_culls *from, wf_culls *out) {
-    finding f = {t, s, packet, shaft};
-    const wf_cull_scene scene = cull_scene(&f);
-    clear(out);
-    if (!wf_cull_again(&scene, from, s->stack, out)) return false;
-    wf_culls_sort(out);
-    return !s->failed;
-}
+#include "tracer/trace/carry.h"
+#include "tracer/trace/find.h"
 
 /* ---- Hits ---- */
 
@@ -100,34 +30,31 @@ static bool make_runs(const search *q, int solid, wf_runs *runs) {
     return true;
 }
 
-static bool runs_room(wf_trace_scratch *s, size_t need) {
-    if (need <= s->runs_room) return true;
-    wf_runs *grown = aligned_alloc(64, 2 * need * sizeof *grown);
-    if (!grown) return false;
-    if (s->runs_room) memcpy(grown, s->runs, s->runs_room * sizeof *grown);
+/* Makes the scratch's runs as many as are needed; what was in them is lost. */
+static bool reserve_runs(wf_trace_scratch *s, size_t need) {
+    if (need <= s->runs_capacity) return true;
     free(s->runs);
-    s->runs = grown;
-    s->runs_room = 2 * need;
-    return true;
+    s->runs_capacity = 0;
+    s->runs = aligned_alloc(64, 2 * need * sizeof *s->runs);
+    if (s->runs) s->runs_capacity = 2 * need;
+    return s->runs;
 }
 
-static bool make_part_runs(const search *q, const wf_culled *part, size_t first) {
-    if (!runs_room(q->s, first + (size_t)part->solid_count)) return false;
+static bool make_part_runs(const search *q, const wf_culls *culls, const wf_culled *part) {
+    if (!reserve_runs(q->s, (size_t)part->solid_count)) return false;
     for (int k = 0; k < part->solid_count; k++)
-        if (!make_runs(q, q->culls->solid[part->solid + (size_t)k],
-                       &q->s->runs[first + (size_t)k]))
-            return false;
+        if (!make_runs(q, culls->solid[part->solid + (size_t)k], &q->s->runs[k])) return false;
     return true;
 }
 
-static wf_csg program_of(const search *q, const wf_culled *part) {
-    return (wf_csg){q->culls->step + part->step, part->step_count, q->s->runs,
-                    q->culls->solid + part->solid, part->solid_count};
+static wf_csg program_of(const search *q, const wf_culls *culls, const wf_culled *part) {
+    return (wf_csg){culls->step + part->step, part->step_count, q->s->runs,
+                    culls->solid + part->solid, part->solid_count};
 }
 
 static bool try_part(search *q, const wf_culled *part) {
-    if (!make_part_runs(q, part, 0)) return false;
-    wf_csg csg = program_of(q, part);
+    if (!make_part_runs(q, q->culls, part)) return false;
+    wf_csg csg = program_of(q, q->culls, part);
     if (part->solid_count == 1)
         q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], q->hits);
     else
@@ -140,54 +67,33 @@ static bool try_part(search *q, const wf_culled *part) {
 static bool starts_inside(search *q, const wf_culled *part, bool *inside) {
     double start[WF_PACKET] = {0};
     uint8_t in[WF_PACKET];
-    if (!make_part_runs(q, part, 0)) return false;
-    wf_csg csg = program_of(q, part);
+    if (!make_part_runs(q, q->culls, part)) return false;
+    wf_csg csg = program_of(q, q->culls, part);
     q->t->csg->inside(&csg, start, q->s->in, in);
     for (int i = 0; i < q->packet->rays.count; i++) *inside |= in[i];
     return true;
 }
 
+/* A stack for programs of any number of operands; what was in it is lost. */
+static wf_csg_entry *joined_stack(wf_trace_scratch *s, size_t need) {
+    if (need <= s->joined_in_capacity) return s->joined_in;
+    free(s->joined_in);
+    s->joined_in_capacity = 0;
+    s->joined_in = aligned_alloc(64, 2 * need * sizeof *s->joined_in);
+    if (s->joined_in) s->joined_in_capacity = 2 * need;
+    return s->joined_in;
+}
+
 /* All parts of one object as the union that they are. */
 static bool try_union(search *q, int object) {
-    const wf_culls *from = q->culls;
-    wf_culls whole = {0};
-    size_t steps = 1, solids = 1;
-    for (size_t n = 0; n < from->part_count; n++) {
-        if (q->t->parts[from->part[n].part].object != object) continue;
-        steps += (size_t)from->part[n].step_count;
-        solids += (size_t)from->part[n].solid_count;
-    }
-    whole.step = malloc(steps * sizeof *whole.step);
-    whole.solid = malloc(solids * sizeof *whole.solid);
-    whole.part = malloc(sizeof *whole.part);
-    wf_csg_entry *stack = aligned_alloc(64, (steps + 2) * sizeof *stack);
-    bool good = whole.step && whole.solid && whole.part && stack;
-    int operands = 0;
-    for (size_t n = 0; good && n < from->part_count; n++) {
-        const wf_culled *p = &from->part[n];
-        if (q->t->parts[p->part].object != object) continue;
-        for (int k = 0; k < p->step_count; k++) {
-            wf_step step = from->step[p->step + (size_t)k];
-            if (step.kind == WF_STEP_SOLID) step.count += (int)whole.solid_count;
-            whole.step[whole.step_count++] = step;
-        }
-        memcpy(whole.solid + whole.solid_count, from->solid + p->solid,
-               (size_t)p->solid_count * sizeof *whole.solid);
-        whole.solid_count += (size_t)p->solid_count;
-        operands++;
-    }
-    if (good) {
-        if (operands > 1) whole.step[whole.step_count++] = (wf_step){WF_STEP_UNION, operands};
-        wf_culled all = {0, 0, 0, 0, (int)whole.step_count, (int)whole.solid_count};
-        q->culls = &whole;
-        good = make_part_runs(q, &all, 0);
-        wf_csg csg = program_of(q, &all);
-        if (good) q->t->csg->nearest(&csg, q->rounding, stack, q->hits);
-        q->culls = from;
-    }
-    free(stack);
-    wf_culls_free(&whole);
-    return good;
+    wf_culls *joined = &q->s->joined;
+    if (!wf_culls_join(q->culls, q->t->parts, object, joined)) return false;
+    const wf_culled *all = &joined->part[0];
+    wf_csg_entry *stack = joined_stack(q->s, (size_t)all->step_count + 1);
+    if (!stack || !make_part_runs(q, joined, all)) return false;
+    wf_csg csg = program_of(q, joined, all);
+    q->t->csg->nearest(&csg, q->rounding, stack, q->hits);
+    return true;
 }
 
 /* The object, of several parts, that a ray starts inside of; -1: none. Rays start inside of one

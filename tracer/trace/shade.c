@@ -1,7 +1,13 @@
+/* Light at the surfaces that rays meet: colors, lights and shadows, mirrors and glass. */
+#include "tracer/trace/shade.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "tracer/trace/inside.h"
+#include "tracer/scene/vec.h"
+#include "tracer/trace/carry.h"
+#include "tracer/trace/find.h"
+#include "tracer/trace/nearest.h"
 
 /* Secondary rays start this far off the surface, by the size of the numbers they start from:
  * what rounding leaves on the wrong side is far nearer. */
@@ -28,22 +34,6 @@ static void put(wf_points *p, int i, wf_vec v) {
 
 static wf_vec direction(const wf_rays *r, int i) {
     return (wf_vec){r->dx[i], r->dy[i], r->dz[i]};
-}
-
-static double dot(wf_vec a, wf_vec b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static wf_vec along(wf_vec a, double s, wf_vec b) {
-    return (wf_vec){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static wf_vec unit(wf_vec v) {
-    double far = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-    if (!(far > 0)) return v;
-    v = (wf_vec){v.x / far, v.y / far, v.z / far};
-    double size = sqrt(dot(v, v));
-    return (wf_vec){v.x / size, v.y / size, v.z / size};
 }
 
 /* ---- Surfaces ---- */
@@ -176,9 +166,10 @@ static void find_light(const shading *h, const wf_light *light, wf_points *place
 
 /* What reaches a point at `way` from the light without shadows: cone and fall-off. */
 static double reach_of(const wf_light *light, wf_vec way, wf_vec shines) {
-    double distance = sqrt(dot(way, way)), share = 1;
+    double distance = sqrt(wf_vec_dot(way, way)), share = 1;
     if (light->kind == WF_LIGHT_SPOT) {
-        double cosine = -dot(unit(way), unit(shines)), wide = light->cos_outer;
+        double cosine = -wf_vec_dot(wf_vec_unit(way), wf_vec_unit(shines)),
+               wide = light->cos_outer;
         double f = (cosine - wide) / fmax(light->cos_inner - wide, 1e-9);
         f = fmin(fmax(f, 0), 1);
         share = f * f * (3 - 2 * f);
@@ -212,7 +203,7 @@ static bool cast_shadows(const shading *h, const wf_light *light, const wf_point
     l->shadow.late_s = l->packet.late_s;
     for (int i = 0; i < h->count; i++) {
         if (!(share[i] > 0)) continue;
-        wf_vec from = along(at(&l->point, i), h->off[i], at(&l->normal, i));
+        wf_vec from = wf_vec_along(at(&l->point, i), h->off[i], at(&l->normal, i));
         add_ray(h, i, from, at(ways, i), &l->shadow);
         lane[lanes++] = i;
     }
@@ -249,21 +240,21 @@ static bool add_lights(const shading *h) {
 /* ---- Mirrors and glass ---- */
 
 static wf_vec mirrored(wf_vec d, wf_vec n) {
-    return along(d, -2 * dot(d, n), n);
+    return wf_vec_along(d, -2 * wf_vec_dot(d, n), n);
 }
 
 /* Snell: false where all is reflected. n faces against d; ratio: index before over behind. */
 static bool refracted(wf_vec d, wf_vec n, double ratio, wf_vec *out) {
-    double cosine = -dot(d, n), rest = 1 - ratio * ratio * (1 - cosine * cosine);
+    double cosine = -wf_vec_dot(d, n), rest = 1 - ratio * ratio * (1 - cosine * cosine);
     if (rest < 0) return false;
-    wf_vec flat = along((wf_vec){0, 0, 0}, ratio, d);
-    *out = along(flat, ratio * cosine - sqrt(rest), n);
+    wf_vec flat = wf_vec_along((wf_vec){0, 0, 0}, ratio, d);
+    *out = wf_vec_along(flat, ratio * cosine - sqrt(rest), n);
     return true;
 }
 
 static wf_vec way_on(const shading *h, int i, bool through, double *side) {
     const wf_material *m = h->surface->material[i];
-    wf_vec d = unit(direction(&h->l->packet.rays, i)), n = at(&h->l->normal, i), out;
+    wf_vec d = wf_vec_unit(direction(&h->l->packet.rays, i)), n = at(&h->l->normal, i), out;
     double index = (double)m->index, ratio = h->l->hits.entering[i] ? 1 / index : index;
     *side = 1;
     if (!through || !refracted(d, n, ratio, &out)) return mirrored(d, n);
@@ -300,7 +291,7 @@ static bool look_on(const shading *h, bool through) {
         double side;
         if (!(share_of(h->surface->material[i], through) > 0)) continue;
         wf_vec way = way_on(h, i, through, &side);
-        wf_vec from = along(at(&h->l->point, i), side * h->off[i], at(&h->l->normal, i));
+        wf_vec from = wf_vec_along(at(&h->l->point, i), side * h->off[i], at(&h->l->normal, i));
         add_ray(h, i, from, way, &next->packet);
         lane[lanes++] = i;
     }
@@ -315,7 +306,7 @@ static bool look_on(const shading *h, bool through) {
     return true;
 }
 
-bool wf_shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
+static bool shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
     wf_surfaces surface;
     wf_trace_level *l = &s->level[level];
     shading h = {.t = t,
@@ -328,4 +319,11 @@ bool wf_shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
     t->light->sum(&surface, l->hits.s, t->scene->background, l->rgb);
     if (level + 1 >= s->levels) return true;
     return look_on(&h, true) && look_on(&h, false);
+}
+
+bool wf_look_along(const wf_tracer *t, wf_trace_scratch *s, int level, const wf_culls *culls) {
+    wf_trace_level *l = &s->level[level];
+    wf_hits_clear(&l->hits);
+    s->counts.rays += l->packet.rays.count;
+    return wf_nearest(t, s, &l->packet, culls, true, &l->hits) && shade(t, s, level);
 }

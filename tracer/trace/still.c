@@ -1,9 +1,8 @@
+/* Whether a tile is still: no moving part can be seen in it, nor come between a light and what
+ * can. Where the latter is, the boxes of parts say, as far as the tile's own rays go. */
 #include <math.h>
 
-#include "tracer/trace/inside.h"
-
-/* A tile is still if no moving part can be seen in it, nor come between a light and what can.
- * Where that is, parts' boxes say, as far as the tile's own rays go. */
+#include "tracer/trace/camera.h"
 
 /* ---- Where receivers are ---- */
 

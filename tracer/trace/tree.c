@@ -1,3 +1,5 @@
+/* Trees of boxes, halved about the middle along the axis on which the boxes lie widest apart.
+ */
 #include "tracer/trace/tree.h"
 
 #include <math.h>

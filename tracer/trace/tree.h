@@ -19,8 +19,8 @@ typedef struct wf_tree {
 bool wf_tree_new(const wf_bounds *bounds, const int *items, int count, wf_tree *out);
 void wf_tree_free(wf_tree *tree);
 
-/* Appends to found, in no order, the items whose boxes the shaft may reach; found must have
- * room for every item. Returns how many. */
+/* Appends to found, in no order, the items whose boxes the shaft may reach; found has
+ * space for every item. Returns how many. */
 int wf_tree_meet(const wf_tree *tree, const wf_bounds *bounds, const wf_shaft *shaft,
                  int *found);
 

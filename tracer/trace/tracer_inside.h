@@ -1,0 +1,91 @@
+#ifndef WF_TRACER_TRACE_TRACER_INSIDE_H
+#define WF_TRACER_TRACE_TRACER_INSIDE_H
+
+#include "tracer/trace/cull.h"
+#include "tracer/trace/light.h"
+#include "tracer/trace/packet.h"
+#include "tracer/trace/texture.h"
+#include "tracer/trace/tracer.h"
+#include "tracer/trace/tree.h"
+
+/* What a tracer and its scratch are made of, for the files that trace. */
+
+struct wf_tracer {
+    const wf_scene *scene;
+    wf_view view;
+    const wf_packet_ops *packet;
+    const wf_csg_ops *csg;
+    const wf_light_ops *light;
+    wf_intersect_fn *const *intersect;
+    wf_normals_fn *const *normals;
+    wf_texture_fn *const *textures;
+    wf_part *parts;
+    bool *sibling; /* [object]: it has several parts */
+    bool *lit;     /* [part]: light falls on it, so that shadows do */
+    bool *clear; /* [part]: it mirrors or lets light through: what is seen in it may be anywhere
+                  */
+    int part_count, most_stack;
+    bool own_widths, lights_move, all_still;
+
+    /* The window of time it looks at. */
+    bool skip, looked;
+    wf_window_of_time window;
+    wf_ready_op *ops;                      /* [op] */
+    wf_bounds *solid_bounds, *part_bounds; /* in the world, over the window */
+    wf_bounds *stack;                      /* [most_stack] */
+    int *still, *moving, *endless;         /* parts: bounded that stand, that move; unbounded */
+    int still_count, moving_count, endless_count;
+    int endless_still;        /* of the endless ones, which come first */
+    int *movers, mover_count; /* all parts that move, seen in the window or not */
+    wf_tree still_tree, moving_tree;
+};
+
+/* One packet in one operator's space. */
+typedef struct wf_carried {
+    wf_rays rays;
+    wf_sincos spin;
+    double dt_s[WF_PACKET];
+    wf_shaft shaft; /* of the rays */
+    int op;
+} wf_carried;
+
+/* A packet on its way: its rays in the world, and when they look. */
+typedef struct wf_packet {
+    wf_rays rays;
+    _Alignas(64) double f[WF_PACKET];
+    double late_s;
+} wf_packet;
+
+/* What each depth of reflection needs for itself. */
+typedef struct wf_trace_level {
+    wf_packet packet, shadow;
+    wf_hits hits;
+    wf_culls culls;
+    wf_points point, normal;
+    double rgb[3][WF_PACKET];
+} wf_trace_level;
+
+struct wf_trace_scratch {
+    wf_trace_counts counts;
+    int *found;             /* [part_count] */
+    wf_cull_operand *stack; /* [most_stack] */
+    wf_csg_entry *in;       /* [most_stack + 1] */
+    wf_culls tile;
+    wf_trace_level *level; /* [depth_limit + 1] */
+    int levels;
+    bool failed; /* memory ran out while solids were looked at */
+
+    /* Spaces that the packet in hand has been carried into. */
+    wf_carried **carried;
+    int *carried_of, carried_count,
+        carried_capacity; /* [op]: index, if its entry says the same op */
+    wf_runs *runs;
+    size_t runs_capacity;
+
+    /* An object as the union that it is, for rays that start inside of it. */
+    wf_culls joined;
+    wf_csg_entry *joined_in;
+    size_t joined_in_capacity;
+};
+
+#endif
