@@ -7,12 +7,13 @@
  *
  * What few samples see alike is not to be believed where something else is near: there each
  * cell gets more, unless the edges beside it are known to pass it by. */
+#include "tracer/sample/adaptive.h"
+
 #include <math.h>
 
-#include "tracer/sample/sampling_inside.h"
-
-/* The spread of four is often found too small; what is asked of it is so much less. */
-#define CAUTION 0.7
+#include "tracer/sample/adaptive_edges.h"
+#include "tracer/sample/adaptive_lines.h"
+#include "tracer/sample/adaptive_points.h"
 
 /* Samples of a quarter to begin with: of the tile's cells, and of those beside it, which are
  * only to show what comes near. */
@@ -40,65 +41,8 @@
 /* How far past a cell an edge passes it by. */
 #define PAST 0.15
 
-/* ---- Errors ---- */
-
-double wf_display_steepness(double v) {
-    return v < 0.018 ? 4.5 : 0.45 * 1.099 * pow(v, -0.55);
-}
-
-/* The part of a cell's error that is left in an output pixel, which sees several cells: the
- * integral of h squared over the square of h's, and more where the aperture's edge cuts cells.
- */
-double wf_adaptive_share(const wf_adaptive *a) {
-    static const double shares[WF_PROFILES] = {
-        [WF_PROFILE_LINE] = 1,      [WF_PROFILE_BOX] = 0.5,      [WF_PROFILE_NOTCH] = 0.384,
-        [WF_PROFILE_SHAPED] = 0.35, [WF_PROFILE_DIAMOND] = 0.75, [WF_PROFILE_MITCHELL] = 1};
-    const wf_aperture *aperture = &a->s->desc.gather.aperture;
-    if (aperture->kind->profile == WF_PROFILE_DESIGN)
-        return wf_stairs_power(&aperture->stairs) / (2 * aperture->half_u);
-    return shares[aperture->kind->profile];
-}
-
-static double mean_of(const wf_adaptive_cell *c, int quarter, int channel) {
-    return c->sum[quarter][channel] / c->each;
-}
-
-static void find_error(const wf_adaptive *a, wf_adaptive_cell *c) {
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double mean = 0, spread = 0;
-        for (int quarter = 0; quarter < WF_QUARTERS; quarter++)
-            mean += mean_of(c, quarter, k) / WF_QUARTERS;
-        for (int quarter = 0; quarter < WF_QUARTERS; quarter++) {
-            double apart = mean_of(c, quarter, k) - mean;
-            spread += apart * apart;
-        }
-        c->mean[k] = mean;
-        c->steep[k] = wf_display_steepness(mean);
-        square += spread / (WF_QUARTERS * (WF_QUARTERS - 1)) * c->steep[k] * c->steep[k] / 3;
-    }
-    c->error = square * wf_adaptive_share(a);
-}
-
-double wf_adaptive_target(const wf_adaptive *a) {
-    double most = a->s->desc.error * CAUTION;
-    return most * most;
-}
-
-/* A cell so many to the right and down, if it has samples. */
-static const wf_adaptive_cell *beside(const wf_adaptive *a, int at, int right, int down) {
-    int column = at % GRID_WIDTH + right, row = at / GRID_WIDTH + down;
-    if (column < 0 || column >= GRID_WIDTH || row < 0 || row >= GRID_ROWS) return NULL;
-    const wf_adaptive_cell *c = &a->cell[row * GRID_WIDTH + column];
-    return c->there ? c : NULL;
-}
-
 static const wf_adaptive_edge *edge_of(const wf_adaptive *a, const wf_adaptive_cell *c) {
     return &a->edge[c - a->cell];
-}
-
-static bool cuts_cells(const wf_sampling *s) {
-    return wf_edge_pieces(&s->desc.gather.aperture) > WF_FEW_PIECES;
 }
 
 /* The largest of a cell's and its neighbors': an edge that all quarters missed here was seen
@@ -107,7 +51,7 @@ static double error_about(const wf_adaptive *a, int at) {
     double most = a->cell[at].error;
     for (int down = -1; down <= 1; down++)
         for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = beside(a, at, right, down);
+            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
             if (c && c->own && c->error / 2 > most) most = c->error / 2;
         }
     return most;
@@ -129,7 +73,7 @@ static bool is_believed(const wf_adaptive *a, int at) {
  */
 int wf_adaptive_rows_about(const wf_sampling *s) {
     if (believed_each(s->desc.error) <= FIRST_EACH) return 0;
-    return cuts_cells(s) ? 2 : 1;
+    return wf_cuts_cells(s) ? 2 : 1;
 }
 
 /* The smaller of two slopes; 0 where one goes up and one goes down. */
@@ -149,7 +93,7 @@ static double slope_of(const wf_adaptive_cell *before, const wf_adaptive_cell *h
 
 /* Light that changes evenly about a cell, and how far from that makes no difference. */
 typedef struct trend {
-    double mean[3], right[3], down[3], room[3];
+    double mean[3], right[3], down[3], margin[3];
 } trend;
 
 static trend trend_about(const wf_adaptive *a, int at) {
@@ -157,9 +101,9 @@ static trend trend_about(const wf_adaptive *a, int at) {
     trend t;
     for (int k = 0; k < 3; k++) {
         t.mean[k] = c->mean[k];
-        t.right[k] = slope_of(beside(a, at, -1, 0), c, beside(a, at, 1, 0), k);
-        t.down[k] = slope_of(beside(a, at, 0, -1), c, beside(a, at, 0, 1), k);
-        t.room[k] =
+        t.right[k] = slope_of(wf_cell_beside(a, at, -1, 0), c, wf_cell_beside(a, at, 1, 0), k);
+        t.down[k] = slope_of(wf_cell_beside(a, at, 0, -1), c, wf_cell_beside(a, at, 0, 1), k);
+        t.margin[k] =
             (fabs(t.right[k]) + fabs(t.down[k])) / 2 + SLIGHT * a->s->desc.error / c->steep[k];
     }
     return t;
@@ -169,25 +113,10 @@ static bool follows(const trend *t, const wf_adaptive_cell *c, int right, int do
     bool all = true;
     for (int k = 0; k < 3; k++) {
         double even = t->mean[k] + right * t->right[k] + down * t->down[k];
-        all &=
-            (double)c->low[k] >= even - t->room[k] && (double)c->high[k] <= even + t->room[k];
+        all &= (double)c->low[k] >= even - t->margin[k] &&
+               (double)c->high[k] <= even + t->margin[k];
     }
     return all;
-}
-
-/* Whether the edge through a neighbor, so many cells to the right and down, comes no nearer
- * than `past` when it goes on as it is. That rows of a skewed field are a little later than the
- * one above is left out: some thousandth of a window. */
-static bool passes_by(const wf_adaptive_edge *edge, int right, int down, double past) {
-    double from[3] = {-right, -down, 0}, low = 0, high = 0;
-    if (!edge->found) return false;
-    for (int k = 0; k < 3; k++) {
-        double a = edge->n[k] * from[k], b = edge->n[k] * (from[k] + 1);
-        low += fmin(a, b);
-        high += fmax(a, b);
-    }
-    past *= sqrt(wf_dot(edge->n, edge->n));
-    return edge->d < low - past || edge->d > high + past;
 }
 
 /* Whether nothing is near that might hide in a cell. */
@@ -195,10 +124,10 @@ static bool quiet(const wf_adaptive *a, int at) {
     trend t = trend_about(a, at);
     for (int down = -1; down <= 1; down++)
         for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = beside(a, at, right, down);
+            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
             bool here = !right && !down;
             if (!c || follows(&t, c, right, down)) continue;
-            if (here || !passes_by(edge_of(a, c), right, down, PAST)) return false;
+            if (here || !wf_edge_passes_by(edge_of(a, c), right, down, PAST)) return false;
         }
     return true;
 }
@@ -225,12 +154,6 @@ static int wants_edge(const wf_adaptive *a, int at) {
            EDGE_SAMPLES;
 }
 
-const wf_adaptive_edge *wf_edge_coming(const wf_adaptive *a, int at, int right, int down) {
-    const wf_adaptive_cell *c = beside(a, at, right, down);
-    const wf_adaptive_edge *edge = c ? edge_of(a, c) : NULL;
-    return edge && edge->found && !passes_by(edge, right, down, 0) ? edge : NULL;
-}
-
 static int wants_to_follow(const wf_adaptive *a, int at) {
     int any = 0;
     if (a->edge[at].found || a->edge[at].followed || !is_believed(a, at)) return 0;
@@ -255,7 +178,7 @@ static int wants_to_be_filled(const wf_adaptive *a, int at) {
     int unlike = 0;
     for (int down = -ABOUT_ROWS; down <= ABOUT_ROWS; down++)
         for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = beside(a, at, right, down);
+            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
             unlike |= c && !follows(&t, c, right, down);
         }
     return unlike;
@@ -285,7 +208,7 @@ static bool choose(wf_adaptive *a, bool about, wants_fn *wants) {
 static bool draw_round(wf_adaptive *a) {
     if (!wf_points_draw(a)) return false;
     for (int at = 0; at < GRID_CELLS; at++)
-        if (a->more[at]) find_error(a, &a->cell[at]);
+        if (a->more[at]) wf_cell_find_error(a, &a->cell[at]);
     return true;
 }
 
@@ -329,7 +252,7 @@ static void forget_crossed(wf_adaptive *a) {
     for (int at = 0; at < GRID_CELLS; at++) {
         if (!crossed[at]) continue;
         a->edge[at].found = false;
-        find_error(a, &a->cell[at]);
+        wf_cell_find_error(a, &a->cell[at]);
     }
 }
 
@@ -339,7 +262,7 @@ static bool sample(wf_adaptive *a, bool empty) {
     if (!find_edges(a)) return false;
     forget_crossed(a);
     if (!draw_all(a, false, is_suspect)) return false;
-    if (cuts_cells(a->s) && choose(a, false, wants_to_be_filled) && !wf_edges_fill(a))
+    if (wf_cuts_cells(a->s) && choose(a, false, wants_to_be_filled) && !wf_edges_fill(a))
         return false;
     return draw_all(a, false, wants_samples);
 }
@@ -388,10 +311,10 @@ static double cut_error(const wf_adaptive *a, int at) {
     int pieces = wf_edge_pieces(&a->s->desc.gather.aperture);
     double points = edge->found ? edge->lines * pieces : WF_QUARTERS * a->cell[at].each,
            most = 0;
-    if (!cuts_cells(a->s)) return 0;
+    if (!wf_cuts_cells(a->s)) return 0;
     for (int down = -1; down <= 1; down++)
         for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = beside(a, at, right, down);
+            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
             if (c) most = fmax(most, contrast_of(&a->cell[at], c));
         }
     return most * wf_points_share_error(points) * wf_adaptive_share(a);

@@ -3,11 +3,15 @@
  * looked for near the cell's own edges and in the middle between. The two sides are then
  * integrated over lines (adaptive_lines.c). Whatever does not fit, a third color, a corner or a
  * curve, leaves the cell to points. */
+#include "tracer/sample/adaptive_edges.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tracer/sample/edges_inside.h"
+#include "tracer/sample/adaptive_lines.h"
+#include "tracer/sample/adaptive_points.h"
+#include "tracer/sample/adaptive_sides.h"
 
 /* How far on the wrong side of the plane a sample may lie: edges are curved. */
 #define BENT 0.05
@@ -36,15 +40,11 @@
 /* The contrast to which filled cells are made: about that of black and white; squared. */
 #define FILLED 0.5
 
-/* What is known of an edge's place is cut into so many parts at once: packets have room. */
+/* What is known of an edge's place is cut into so many parts at once, so that packets are
+ * filled. */
 #define PARTS 4
 
 /* ---- The plane ---- */
-
-int wf_axis_across(const double n[3]) {
-    int axis = fabs(n[1]) > fabs(n[0]);
-    return fabs(n[2]) > fabs(n[axis]) ? 2 : axis;
-}
 
 /* Fisher's discriminant of the samples of both sides. */
 static void find_normal(wf_seeker *e) {
@@ -179,7 +179,7 @@ static bool place_rays(wf_seeking *s, bool ends) {
     k->count = 0;
     for (int n = 0; n < s->count; n++) {
         const wf_seeker *e = &s->seekers[n];
-        if (!wf_points_room(k, WF_MOST_SUPPORTS * (PARTS + 1))) return false;
+        if (!wf_points_reserve(k, WF_MOST_SUPPORTS * (PARTS + 1))) return false;
         for (const wf_support *f = e->support; f < e->support + e->supports; f++) {
             double p[3] = {f->at[0], f->at[1], s->dims < 3 ? 0.5 : f->at[2]};
             for (int part = !ends; f->asked && part < PARTS + ends; part++) {
@@ -200,7 +200,7 @@ static void learn(wf_seeker *e, wf_support *f, bool ends, const wf_adaptive_samp
     for (int part = to - 1; part >= from; part--) {
         size_t n = first + (size_t)(part - from);
         int side = wf_side_of(
-            e, (double[3]){(double)k->v[3][n], (double)k->v[4][n], (double)k->v[5][n]});
+            e, (double[3]){(double)k->rgb[0][n], (double)k->rgb[1][n], (double)k->rgb[2][n]});
         bool over = side == (e->n[e->axis] > 0);
         e->lost |= side < 0 || (over && beyond != part + 1);
         if (over) beyond = part;
@@ -338,10 +338,10 @@ static void sort_samples(wf_seeking *s, size_t *first) {
         int at = k->cell[n] / WF_QUARTERS;
         if (!s->a->more[at]) continue;
         wf_seen *v = &s->seen[next[at]++];
-        v->p[0] = (double)k->v[0][n] - wf_cell_x(s->a, at);
-        v->p[1] = (double)k->v[1][n] - wf_cell_y(s->a, at);
-        v->p[2] = s->dims > 2 ? (double)k->v[6][n] : 0;
-        for (int c = 0; c < 3; c++) v->rgb[c] = (double)k->v[3 + c][n];
+        v->p[0] = (double)k->x[n] - wf_cell_x(s->a, at);
+        v->p[1] = (double)k->y[n] - wf_cell_y(s->a, at);
+        v->p[2] = s->dims > 2 ? (double)k->fraction[n] : 0;
+        for (int c = 0; c < 3; c++) v->rgb[c] = (double)k->rgb[c][n];
     }
 }
 
@@ -381,31 +381,29 @@ static bool seek(wf_seeking *s) {
     return true;
 }
 
-void wf_edges_free(wf_edge_room *room) {
-    free(room->seekers);
-    free(room->seen);
-    *room = (wf_edge_room){0};
+void wf_edges_free(wf_edge_scratch *to) {
+    free(to->seekers);
+    free(to->seen);
+    *to = (wf_edge_scratch){0};
 }
 
-static bool make_room(wf_edge_room *room, size_t samples) {
-    if (!room->seekers) room->seekers = malloc(GRID_CELLS * sizeof(wf_seeker));
-    if (samples <= room->seen_room) return room->seekers;
-    void *grown = realloc(room->seen, 2 * samples * sizeof(wf_seen));
+static bool reserve_seen(wf_edge_scratch *to, size_t samples) {
+    if (!to->seekers) to->seekers = malloc(GRID_CELLS * sizeof(wf_seeker));
+    if (samples <= to->seen_capacity) return to->seekers;
+    void *grown = realloc(to->seen, 2 * samples * sizeof(wf_seen));
     if (!grown) return false;
-    room->seen = grown;
-    room->seen_room = 2 * samples;
-    return room->seekers;
+    to->seen = grown;
+    to->seen_capacity = 2 * samples;
+    return to->seekers;
 }
 
 /* A seeker for every cell in question. */
 static bool begin_seeking(wf_adaptive *a, wf_seeking *s) {
-    wf_edge_room *room = &a->c->edges;
+    wf_edge_scratch *to = &a->c->edges;
     size_t first[GRID_CELLS + 1];
-    if (!make_room(room, a->c->kept.count)) return false;
-    *s = (wf_seeking){.a = a,
-                      .dims = a->tile->timeless ? 2 : 3,
-                      .seekers = room->seekers,
-                      .seen = room->seen};
+    if (!reserve_seen(to, a->c->kept.count)) return false;
+    *s = (wf_seeking){
+        .a = a, .dims = a->tile->timeless ? 2 : 3, .seekers = to->seekers, .seen = to->seen};
     sort_samples(s, first);
     for (int at = 0; at < GRID_CELLS; at++)
         if (a->more[at])

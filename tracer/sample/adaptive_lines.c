@@ -1,16 +1,10 @@
-/* Cells whose edge is known, over lines along the axis that it stands most across. */
+/* Integrates cells whose edge is known, over lines along the axis that it stands most across.
+ */
+#include "tracer/sample/adaptive_lines.h"
+
 #include <math.h>
 
-#include "tracer/sample/sampling_inside.h"
-
-/* The edges of these apertures cut cells. */
-#define MANY_PIECES 8
-
-int wf_edge_pieces(const wf_aperture *aperture) {
-    bool wide = aperture->half_u != 0.5; /* its sides lie within cells */
-    bool cuts = aperture->kind->couples_uv || aperture->kind->couples_vq || wide;
-    return cuts ? MANY_PIECES : WF_FEW_PIECES;
-}
+#include "tracer/sample/adaptive_points.h"
 
 typedef struct emitter {
     const wf_adaptive *a;
@@ -25,8 +19,8 @@ static void emit_stretch(const emitter *m, const double rgb[3][4], double *p, do
     for (int k = 0; k < m->pieces; k++) {
         p[m->axis] = from + (to - from) * (k + share) / m->pieces;
         size_t n = wf_points_place(m->a, m->to, m->at, p);
-        for (int c = 0; c < 3; c++) m->to->v[3 + c][n] = (float)wf_edge_color(rgb[c], p);
-        m->to->v[6][n] = (float)(m->weight * (to - from) / m->pieces);
+        for (int c = 0; c < 3; c++) m->to->rgb[c][n] = (float)wf_edge_color(rgb[c], p);
+        m->to->weight[n] = (float)(m->weight * (to - from) / m->pieces);
     }
 }
 
@@ -44,12 +38,12 @@ static bool emit_cell(const wf_adaptive *a, int at) {
     wf_adaptive_samples *to = &a->c->probes;
     int pieces = wf_edge_pieces(&a->s->desc.gather.aperture);
     emitter m = {a, to, at, wf_axis_across(edge->n), pieces, 1.0 / edge->lines};
-    float spread[3][WF_MOST_LINES];
+    float place[3][WF_MOST_LINES];
     to->count = 0;
-    if (!wf_points_room(to, 2 * (size_t)(pieces * edge->lines))) return false;
-    wf_points_spread(a, at, edge->lines, (float *[3]){spread[0], spread[1], spread[2]});
+    if (!wf_points_reserve(to, 2 * (size_t)(pieces * edge->lines))) return false;
+    wf_points_even(a, at, edge->lines, (float *[3]){place[0], place[1], place[2]});
     for (int n = 0; n < edge->lines; n++) {
-        double p[3] = {(double)spread[0][n], (double)spread[1][n], (double)spread[2][n]};
+        double p[3] = {(double)place[0][n], (double)place[1][n], (double)place[2][n]};
         emit_line(&m, edge, p);
     }
     wf_points_hand_over(a, to);

@@ -1,30 +1,42 @@
 /* Cells sampled at points, as many as each place needs. */
-#include <math.h>
+#include "tracer/sample/adaptive_points.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "tracer/sample/sampling_inside.h"
+/* ---- Memory ---- */
 
-/* ---- Room ---- */
+#define COLUMNS 8
+
+/* All arrays of floats of samples. */
+static void find_columns(wf_adaptive_samples *k, float **column[COLUMNS]) {
+    float **const all[COLUMNS] = {&k->x,      &k->y,      &k->t,      &k->fraction,
+                                  &k->rgb[0], &k->rgb[1], &k->rgb[2], &k->weight};
+    memcpy(column, all, sizeof all);
+}
 
 void wf_points_free(wf_adaptive_samples *k) {
-    for (int n = 0; n < 7; n++) free(k->v[n]);
+    float **column[COLUMNS];
+    find_columns(k, column);
+    for (int n = 0; n < COLUMNS; n++) free(*column[n]);
     free(k->cell);
     *k = (wf_adaptive_samples){0};
 }
 
-bool wf_points_room(wf_adaptive_samples *k, size_t more) {
-    if (k->count + more <= k->room) return true;
-    size_t room = 2 * (k->count + more);
-    int *cells = realloc(k->cell, room * sizeof *cells);
+bool wf_points_reserve(wf_adaptive_samples *k, size_t more) {
+    float **column[COLUMNS];
+    if (k->count + more <= k->capacity) return true;
+    size_t capacity = 2 * (k->count + more);
+    int *cells = realloc(k->cell, capacity * sizeof *cells);
     if (!cells) return false;
     k->cell = cells;
-    for (int n = 0; n < 7; n++) {
-        float *grown = realloc(k->v[n], room * sizeof *grown);
+    find_columns(k, column);
+    for (int n = 0; n < COLUMNS; n++) {
+        float *grown = realloc(*column[n], capacity * sizeof *grown);
         if (!grown) return false;
-        k->v[n] = grown;
+        *column[n] = grown;
     }
-    k->room = room;
+    k->capacity = capacity;
     return true;
 }
 
@@ -34,39 +46,39 @@ static wf_cell cell_of(const wf_adaptive *a, int at, int set) {
     return (wf_cell){a->tile->time, wf_cell_x(a, at), wf_cell_y(a, at), set};
 }
 
-/* From a place in the cell to one on the raster and in time; f stays in the place of the weight
- * until samples are handed over. */
+/* From a place in the cell, and its fraction of the window, to one on the raster and in time.
+ */
 static void place(const wf_adaptive *a, wf_adaptive_samples *k, int at, size_t n) {
     wf_row_time time = a->time[at / GRID_WIDTH];
-    double t = time.from + (double)k->v[6][n] * (time.to - time.from);
-    k->v[0][n] = wf_in_cell(k->v[0][n], wf_cell_x(a, at));
-    k->v[1][n] = wf_in_cell(k->v[1][n], wf_cell_y(a, at));
-    k->v[2][n] = (float)wf_on_time_grid(t);
+    double t = time.from + (double)k->fraction[n] * (time.to - time.from);
+    k->x[n] = wf_in_cell(k->x[n], wf_cell_x(a, at));
+    k->y[n] = wf_in_cell(k->y[n], wf_cell_y(a, at));
+    k->t[n] = (float)wf_on_time_grid(t);
 }
 
 size_t wf_points_place(const wf_adaptive *a, wf_adaptive_samples *k, int at,
                        const double p[3]) {
     size_t n = k->count++;
-    k->v[0][n] = (float)p[0];
-    k->v[1][n] = (float)p[1];
-    k->v[6][n] = (float)p[2];
+    k->x[n] = (float)p[0];
+    k->y[n] = (float)p[1];
+    k->fraction[n] = (float)p[2];
     k->cell[n] = at * WF_QUARTERS;
     place(a, k, at, n);
     return n;
 }
 
-void wf_points_spread(const wf_adaptive *a, int at, int count, float *const spread[3]) {
-    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, 1), 0, count, spread[0], spread[1],
-                         spread[2]);
+void wf_points_even(const wf_adaptive *a, int at, int count, float *const places[3]) {
+    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, 1), 0, count, places[0], places[1],
+                         places[2]);
 }
 
 /* A piece of one quarter of one cell, to be traced with others of its row. */
 static bool draw(wf_adaptive *a, int at, int quarter, int from, int count) {
     wf_adaptive_samples *k = &a->c->kept;
-    if (!wf_points_room(k, (size_t)count)) return false;
+    if (!wf_points_reserve(k, (size_t)count)) return false;
     size_t first = k->count;
-    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, 0), from, count, k->v[0] + first,
-                         k->v[1] + first, k->v[6] + first);
+    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, 0), from, count, k->x + first,
+                         k->y + first, k->fraction + first);
     for (size_t n = first; n < first + (size_t)count; n++) {
         place(a, k, at, n);
         k->cell[n] = at * WF_QUARTERS + quarter;
@@ -79,10 +91,10 @@ static bool draw(wf_adaptive *a, int at, int quarter, int from, int count) {
 static bool trace(const wf_adaptive *a, wf_adaptive_samples *k, double late, size_t first,
                   size_t count) {
     for (size_t i = 0; i < count; i++) {
-        a->c->trace_x[i] = (double)k->v[0][first + i];
-        a->c->trace_y[i] = (double)k->v[1][first + i];
-        a->c->trace_f[i] = wf_window_fraction(a->s, (double)k->v[2][first + i], late,
-                                              (double)k->v[6][first + i]);
+        a->c->trace_x[i] = (double)k->x[first + i];
+        a->c->trace_y[i] = (double)k->y[first + i];
+        a->c->trace_f[i] = wf_window_fraction(a->s, (double)k->t[first + i], late,
+                                              (double)k->fraction[first + i]);
     }
     const wf_trace_samples traced = {
         .count = count,
@@ -90,7 +102,7 @@ static bool trace(const wf_adaptive *a, wf_adaptive_samples *k, double late, siz
         .y = a->c->trace_y,
         .f = a->c->trace_f,
         .late_s = a->s->periods ? 0 : late * wf_ratio_value(wf_sampling_period(a->s)),
-        .rgb = {k->v[3] + first, k->v[4] + first, k->v[5] + first}};
+        .rgb = {k->rgb[0] + first, k->rgb[1] + first, k->rgb[2] + first}};
     return wf_trace(a->s->tracer, a->c->trace, &traced);
 }
 
@@ -102,7 +114,7 @@ static double late_of(const wf_adaptive *a, const wf_adaptive_samples *k, size_t
 bool wf_points_trace(const wf_adaptive *a, wf_adaptive_samples *k, size_t first) {
     for (size_t end; first < k->count; first = end) {
         double late = late_of(a, k, first);
-        for (end = first + 1; end < k->count && end - first < a->c->room;)
+        for (end = first + 1; end < k->count && end - first < a->c->capacity;)
             if (late_of(a, k, end++) != late) {
                 end--;
                 break;
@@ -118,7 +130,7 @@ static void add_up(wf_adaptive *a, size_t first) {
         wf_adaptive_cell *cell = &a->cell[k->cell[n] / WF_QUARTERS];
         int quarter = k->cell[n] % WF_QUARTERS;
         for (int c = 0; c < 3; c++) {
-            float v = k->v[3 + c][n];
+            float v = k->rgb[c][n];
             cell->sum[quarter][c] += (double)v;
             cell->low[c] = v < cell->low[c] ? v : cell->low[c];
             cell->high[c] = v > cell->high[c] ? v : cell->high[c];
@@ -159,22 +171,24 @@ bool wf_points_draw(wf_adaptive *a) {
 
 void wf_points_hand_over(const wf_adaptive *a, const wf_adaptive_samples *k) {
     const wf_samples samples = {.count = k->count,
-                                .x = k->v[0],
-                                .y = k->v[1],
-                                .t = k->v[2],
+                                .x = k->x,
+                                .y = k->y,
+                                .t = k->t,
                                 .field = a->s->field,
-                                .rgb = {k->v[3], k->v[4], k->v[5]},
-                                .weight = k->v[6]};
+                                .rgb = {k->rgb[0], k->rgb[1], k->rgb[2]},
+                                .weight = k->weight};
     if (k->count) a->tile->receiver->samples(a->tile->receiver->user, &samples);
 }
 
 /* Leaves out the samples of cells whose edge is known, and of those beside the tile. */
 static void drop(wf_adaptive_samples *k, const wf_adaptive *a) {
+    float **column[COLUMNS];
     size_t left = 0;
+    find_columns(k, column);
     for (size_t n = 0; n < k->count; n++) {
         int at = k->cell[n] / WF_QUARTERS;
         if (!a->cell[at].own || a->edge[at].found) continue;
-        for (int c = 0; c < 7; c++) k->v[c][left] = k->v[c][n];
+        for (int c = 0; c < COLUMNS; c++) (*column[c])[left] = (*column[c])[n];
         k->cell[left++] = k->cell[n];
     }
     k->count = left;
@@ -185,6 +199,6 @@ void wf_points_emit(const wf_adaptive *a) {
     wf_adaptive_samples *k = &a->c->kept;
     drop(k, a);
     for (size_t n = 0; n < k->count; n++)
-        k->v[6][n] = (float)(1.0 / (WF_QUARTERS * a->cell[k->cell[n] / WF_QUARTERS].each));
+        k->weight[n] = (float)(1.0 / (WF_QUARTERS * a->cell[k->cell[n] / WF_QUARTERS].each));
     wf_points_hand_over(a, k);
 }

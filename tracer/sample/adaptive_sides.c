@@ -1,9 +1,9 @@
 /* The two sides of an edge: which color is of which, and how each changes over its part of the
  * cell. */
+#include "tracer/sample/adaptive_sides.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "tracer/sample/edges_inside.h"
 
 /* How far from its side's mean, of the distance of both, a color may be. */
 #define SAME_COLOR 0.25

@@ -1,3 +1,4 @@
+/* Where the samples of a cell lie: Sobol's points, strata with jitter, or a grid. */
 #include "tracer/sample/sampler.h"
 
 #include <math.h>

@@ -18,12 +18,6 @@ wf_vec wf_apply(const wf_affine *a, wf_vec p) {
     return (wf_vec){q.x + a->d.x, q.y + a->d.y, q.z + a->d.z};
 }
 
-wf_vec wf_turn_normal(const wf_affine *inverse, wf_vec n) {
-    return (wf_vec){inverse->m[0][0] * n.x + inverse->m[1][0] * n.y + inverse->m[2][0] * n.z,
-                    inverse->m[0][1] * n.x + inverse->m[1][1] * n.y + inverse->m[2][1] * n.z,
-                    inverse->m[0][2] * n.x + inverse->m[1][2] * n.y + inverse->m[2][2] * n.z};
-}
-
 wf_affine wf_compose(const wf_affine *outer, const wf_affine *inner) {
     wf_affine c = {.d = wf_apply(outer, inner->d)};
     for (int i = 0; i < 3; i++)

@@ -29,9 +29,8 @@ bool wf_op_moves(const wf_scene *scene, int op);
 
 /* ---- Affine maps ---- */
 
-wf_vec wf_apply(const wf_affine *a, wf_vec p);             /* a point */
-wf_vec wf_turn(const wf_affine *a, wf_vec v);              /* a direction */
-wf_vec wf_turn_normal(const wf_affine *inverse, wf_vec n); /* a normal, by the map's inverse */
+wf_vec wf_apply(const wf_affine *a, wf_vec p); /* a point */
+wf_vec wf_turn(const wf_affine *a, wf_vec v);  /* a direction */
 wf_affine wf_compose(const wf_affine *outer, const wf_affine *inner);
 bool wf_invert(const wf_affine *a, wf_affine *out); /* false if singular */
 

@@ -25,7 +25,7 @@ wf_bounds wf_bounds_none(void) {
     return (wf_bounds){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
-wf_bounds wf_bounds_all(void) {
+static wf_bounds all(void) {
     return (wf_bounds){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
 }
 
@@ -66,7 +66,8 @@ static void add_scaled(double m, double low, double high, double *from, double *
     *to += m > 0 ? m * high : m * low;
 }
 
-wf_bounds wf_bounds_place(const wf_affine *a, wf_bounds b) {
+/* The box of what an affine map makes of a box. */
+static wf_bounds place(const wf_affine *a, wf_bounds b) {
     double d[3] = {a->d.x, a->d.y, a->d.z};
     wf_bounds out;
     if (wf_bounds_empty(&b)) return b;
@@ -109,7 +110,7 @@ static wf_bounds spin(const wf_ready_op *r, double from, double to, wf_bounds b)
     double chord = radius_about(op, &b) * (half < PI ? 2 * sin(half / 2) : 2) * (1 + SLACK);
     double axis[3] = {op->axis.x, op->axis.y, op->axis.z};
     wf_affine middle = wf_op_at(r, (from + to) / 2);
-    wf_bounds out = wf_bounds_place(&middle, b);
+    wf_bounds out = place(&middle, b);
     for (int k = 0; k < 3; k++) {
         double across = sqrt(most(1 - axis[k] * axis[k], 0)) + SLACK;
         if (chord == 0) break;
@@ -124,7 +125,7 @@ static wf_bounds spin(const wf_ready_op *r, double from, double to, wf_bounds b)
 static wf_bounds keyed(const wf_ready_op *r, double from, double to, wf_bounds b) {
     const wf_key *keys = r->keys + r->op->first_key;
     wf_affine at = wf_op_at(r, from);
-    wf_bounds out = wf_bounds_place(&at, b);
+    wf_bounds out = place(&at, b);
     double reach = 0;
     for (int k = 0; k < 3; k++) {
         double far = most(fabs(b.low[k]), fabs(b.high[k]));
@@ -136,10 +137,10 @@ static wf_bounds keyed(const wf_ready_op *r, double from, double to, wf_bounds b
         for (int q = 0; q < 4; q++) rotates |= keys[k].turn[q] != keys[0].turn[q];
         if (t <= from || t >= to) continue;
         at = wf_op_at(r, t);
-        out = wf_bounds_unite(out, wf_bounds_place(&at, b));
+        out = wf_bounds_unite(out, place(&at, b));
     }
     at = wf_op_at(r, to);
-    out = wf_bounds_unite(out, wf_bounds_place(&at, b));
+    out = wf_bounds_unite(out, place(&at, b));
     for (int k = 0; rotates && k < 3; k++) {
         out.low[k] -= 2 * sqrt(reach);
         out.high[k] += 2 * sqrt(reach);
@@ -149,7 +150,7 @@ static wf_bounds keyed(const wf_ready_op *r, double from, double to, wf_bounds b
 
 static wf_bounds drift(const wf_ready_op *r, double from, double to, wf_bounds b) {
     wf_affine first = wf_op_at(r, from), last = wf_op_at(r, to);
-    return wf_bounds_unite(wf_bounds_place(&first, b), wf_bounds_place(&last, b));
+    return wf_bounds_unite(place(&first, b), place(&last, b));
 }
 
 wf_bounds wf_bounds_move(const wf_ready_op *r, double from, double to, wf_bounds b) {
@@ -159,7 +160,7 @@ wf_bounds wf_bounds_move(const wf_ready_op *r, double from, double to, wf_bounds
                                                    [WF_OP_SPIN] = spin,
                                                    [WF_OP_KEYS] = keyed};
     if (wf_bounds_empty(&b)) return b;
-    if (!wf_bounds_finite(&b) && r->op->kind != WF_OP_PLACE) return wf_bounds_all();
+    if (!wf_bounds_finite(&b) && r->op->kind != WF_OP_PLACE) return all();
     return move[r->op->kind](r, from, to, b);
 }
 
@@ -167,7 +168,7 @@ wf_bounds wf_bounds_solid(const wf_scene *scene, const wf_ready_op *ops, int ind
                           double from_s, double to_s) {
     const wf_solid *solid = &scene->solids[index];
     wf_bounds b = wf_solid_type_of(solid->kind)->bounds(solid, scene->planes);
-    b = wf_bounds_place(&solid->place, b);
+    b = place(&solid->place, b);
     for (int op = solid->op; op >= 0; op = scene->ops[op].outer)
         b = wf_bounds_move(&ops[op], from_s, to_s, b);
     return b;

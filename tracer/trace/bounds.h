@@ -9,15 +9,11 @@
  * counts. */
 
 wf_bounds wf_bounds_none(void); /* holds nothing; neutral in unions */
-wf_bounds wf_bounds_all(void);
 bool wf_bounds_empty(const wf_bounds *b);
 bool wf_bounds_finite(const wf_bounds *b);
 wf_bounds wf_bounds_unite(wf_bounds a, wf_bounds b);
 wf_bounds wf_bounds_intersect(wf_bounds a, wf_bounds b);
 wf_bounds wf_bounds_of_point(wf_vec p);
-
-/* The box of what an affine map makes of a box. */
-wf_bounds wf_bounds_place(const wf_affine *map, wf_bounds b);
 
 /* The box of what an operator makes of a box at any time from..to seconds after its base. */
 wf_bounds wf_bounds_move(const wf_ready_op *op, double from_s, double to_s, wf_bounds b);

@@ -44,9 +44,8 @@ typedef void wf_intersect_fn(const wf_solid *solid, const wf_plane *planes, cons
 /* A kind of solid in canonical form (scene.h). */
 typedef struct wf_solid_type {
     const char *name;
-    int most_runs; /* 1 or 2 */
-    bool (*inside)(const wf_solid *solid, const wf_plane *planes, wf_vec p);
-    wf_bounds (*bounds)(const wf_solid *solid, const wf_plane *planes);
+    int most_runs;                                                      /* 1 or 2 */
+    wf_bounds (*bounds)(const wf_solid *solid, const wf_plane *planes); /* holds all of it */
 } wf_solid_type;
 
 const wf_solid_type *wf_solid_type_of(wf_solid_kind kind);

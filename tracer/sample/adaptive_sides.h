@@ -1,10 +1,9 @@
-#ifndef WF_TRACER_SAMPLE_EDGES_INSIDE_H
-#define WF_TRACER_SAMPLE_EDGES_INSIDE_H
+#ifndef WF_TRACER_SAMPLE_ADAPTIVE_SIDES_H
+#define WF_TRACER_SAMPLE_ADAPTIVE_SIDES_H
 
-#include "tracer/sample/sampling_inside.h"
+#include "tracer/sample/adaptive_cells.h"
 
-/* Between adaptive_edges.c, which looks for edges, and adaptive_sides.c, which tells their
- * sides apart. */
+/* The two sides of the edge through a cell, as its samples show them. */
 
 /* What a sample of a cell saw. */
 typedef struct wf_seen {
@@ -20,7 +19,8 @@ typedef struct wf_seen {
 typedef struct wf_support {
     double at[3];     /* where the plane is thought to cross it */
     double low, high; /* one side ends, the other begins */
-    bool found, asked;
+    bool found;       /* low and high are known */
+    bool asked;       /* rays are sent along it now */
 } wf_support;
 
 /* A cell whose edge is looked for. */
@@ -30,9 +30,9 @@ typedef struct wf_seeker {
     wf_seen *first, *end;
     double mean[2][3], reach; /* colors of the sides; the square of their distance */
     double n[3], d;           /* the plane, as in wf_adaptive_edge */
-    int axis;                 /* that it stands most across */
+    int axis;                 /* the one that the plane stands most across */
     double bend;              /* how far the edge's middle lies off it */
-    double narrow;            /* that low and high are to be apart */
+    double narrow;            /* how far apart low and high may be in the end */
     int supports;
     wf_support support[WF_MOST_SUPPORTS];
 } wf_seeker;

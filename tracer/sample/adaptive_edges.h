@@ -1,0 +1,17 @@
+#ifndef WF_TRACER_SAMPLE_ADAPTIVE_EDGES_H
+#define WF_TRACER_SAMPLE_ADAPTIVE_EDGES_H
+
+#include "tracer/sample/adaptive_cells.h"
+
+/* Looks for one edge through each cell in question: where its samples differ, or where that
+ * of a neighbor goes on. False: no memory. */
+bool wf_edges_find(wf_adaptive *a);
+bool wf_edges_follow(wf_adaptive *a);
+
+/* Makes cells in question ones of an edge that passes them by: of one color, however few
+ * samples they have. False: no memory. */
+bool wf_edges_fill(wf_adaptive *a);
+
+void wf_edges_free(wf_edge_scratch *scratch);
+
+#endif
