@@ -76,7 +76,8 @@ color/space/ocio    : color/line color/space
 color/codes         : filters/base color/line color/space
 color/composite     : filters/base color/line
 tracer/scene        : filters/base
-tracer/trace        : filters/base tracer/scene
+tracer/rays         : filters/base tracer/scene
+tracer/trace        : filters/base tracer/scene tracer/rays
 tracer/sample       : filters/base filters/aperture filters/raster filters/gather tracer/scene tracer/trace
 convert/base        : filters/base
 convert/job         : filters/* color/* tracer/sample convert/base

@@ -20,7 +20,7 @@
 #define WIDE   0.4
 #define NARROW 0.06
 
-/* How well its place has to be known at first, and at best. */
+/* How small the stretch in which it is known to lie has to become at first, and at best. */
 #define ROUGH  0.1
 #define FINEST 0x1p-11
 
@@ -28,8 +28,8 @@
  * cell. */
 #define DRAWN_IN 0.15
 
-/* Of cells whose edge is known, the share in which something else is as large as the share of a
- * sample, and was not seen. */
+/* The share of cells with a known edge in which something else, as large as the part of the
+ * cell that one sample stands for, was not seen. */
 #define UNSEEN 0.05
 
 #define FIRST_LINES 16
@@ -40,8 +40,8 @@
 /* The contrast to which filled cells are made: about that of black and white; squared. */
 #define FILLED 0.5
 
-/* What is known of an edge's place is cut into so many parts at once, so that packets are
- * filled. */
+/* The stretch in which an edge is known to lie is cut into so many parts at once, so that
+ * packets are filled. */
 #define PARTS 4
 
 /* ---- The plane ---- */
@@ -243,7 +243,7 @@ static bool search(wf_seeking *s, double reach) {
 
 /* ---- What came of it ---- */
 
-/* No sample lies farther on the wrong side than a curve explains. */
+/* Whether no sample lies farther on the wrong side than a curve explains. */
 static bool agrees(const wf_seeker *e) {
     double most = BENT * sqrt(wf_dot(e->n, e->n));
     for (const wf_seen *v = e->first; v < e->end; v++) {
@@ -345,14 +345,14 @@ static void sort_samples(wf_seeking *s, size_t *first) {
     }
 }
 
-/* From its own samples. */
+/* Begins with the cell's own samples. */
 static void begin(wf_seeker *e) {
     wf_find_colors(e);
     if (!e->lost) find_normal(e);
     if (!e->lost) find_offset(e);
 }
 
-/* From the edge of a neighbor so many cells to the right and down, as it goes on. */
+/* Begins with the edge of a neighbor so many cells to the right and down, as it goes on. */
 static void begin_with(wf_seeker *e, const wf_adaptive_edge *edge, int right, int down) {
     const double middle[3] = {0.5 - right, 0.5 - down, 0.5};
     memcpy(e->n, edge->n, sizeof e->n);
@@ -364,7 +364,7 @@ static void begin_with(wf_seeker *e, const wf_adaptive_edge *edge, int right, in
     wf_find_sides(e);
 }
 
-/* Once roughly, and then as finely as the contrast makes it count. */
+/* Searches roughly at first, and then as finely as the contrast of the sides calls for. */
 static bool seek(wf_seeking *s) {
     for (int n = 0; n < s->count; n++) s->seekers[n].narrow = ROUGH;
     if (!search(s, WIDE)) return false;
@@ -448,7 +448,8 @@ bool wf_edges_follow(wf_adaptive *a) {
 
 /* ---- Cells that no edge crosses ---- */
 
-/* As if one passed by: all is one side, of which many points are made. */
+/* Treats a cell as if an edge passed it by: all of it is one side, for which many points stand.
+ */
 static void fill(const wf_seeking *s, const wf_seeker *e) {
     wf_adaptive_edge *edge = &s->a->edge[e->at];
     wf_side_sums sums;

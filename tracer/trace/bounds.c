@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "tracer/trace/packet.h"
+#include "tracer/rays/packet.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,8 +1,8 @@
 #ifndef WF_TRACER_TRACE_BOUNDS_H
 #define WF_TRACER_TRACE_BOUNDS_H
 
+#include "tracer/rays/solid.h"
 #include "tracer/scene/motion.h"
-#include "tracer/trace/solid.h"
 
 /* Boxes that hold solids over a window of time, and shafts that hold packets of rays. Every
  * answer errs to the side of "may be seen": a little more than rounding is added where it

@@ -148,7 +148,8 @@ static bool nearest_of(search *q, bool whole) {
  * many rays, each of which meets fewer, are cheaper than one. */
 #define MANY_SOLIDS 192
 
-/* Lanes first .. of a packet and its hits; the rest are copies of the last. */
+/* Copies `count` lanes of a packet and its hits from first on; the rest are copies of the last.
+ */
 static void take_lanes(const wf_packet *from, const wf_hits *hits, int first, int count,
                        wf_packet *to, wf_hits *to_hits) {
     const double *const in[] = {from->rays.ox, from->rays.oy, from->rays.oz, from->rays.dx,
@@ -165,7 +166,7 @@ static void take_lanes(const wf_packet *from, const wf_hits *hits, int first, in
     }
 }
 
-/* Of one part: parts of one solid each are many and cheap. */
+/* How many solids the largest part has: parts of one solid each are many and cheap. */
 static int most_solids(const wf_culls *culls) {
     int most = 0;
     for (size_t n = 0; n < culls->part_count; n++)
@@ -173,8 +174,8 @@ static int most_solids(const wf_culls *culls) {
     return most;
 }
 
-/* Hits of lanes first ..; *helps: fewer solids are met than by the whole packet, or else
- * nothing is done. */
+/* Finds hits of `count` lanes from first on. *helps: they meet fewer solids than the whole
+ * packet does; where they do not, nothing is done. */
 static bool nearest_of_half(const search *q, bool whole, int first, int count, bool *helps) {
     wf_packet half;
     wf_hits hits;

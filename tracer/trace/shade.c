@@ -106,7 +106,7 @@ static bool paint_solid(shading *h, int64_t index) {
     return true;
 }
 
-/* Solid by solid of those that are seen, each for all lanes at once. */
+/* Paints one after another the solids that are seen, each for all lanes at once. */
 static bool paint(shading *h) {
     const int64_t *solid = h->l->hits.solid;
     int64_t done[WF_PACKET];
@@ -136,7 +136,7 @@ static void add_ray(const shading *h, int lane, wf_vec from, wf_vec to, wf_packe
     packet->f[i] = h->l->packet.f[lane];
 }
 
-/* Copies of the last ray behind the packet's rays. */
+/* Fills the places behind the packet's rays with copies of the last. */
 static void pad(wf_packet *packet) {
     wf_rays *r = &packet->rays;
     double *const array[] = {r->ox, r->oy, r->oz, r->dx, r->dy, r->dz, packet->f};

@@ -1,10 +1,10 @@
 #ifndef WF_TRACER_TRACE_TRACER_INSIDE_H
 #define WF_TRACER_TRACE_TRACER_INSIDE_H
 
+#include "tracer/rays/light.h"
+#include "tracer/rays/packet.h"
+#include "tracer/rays/texture.h"
 #include "tracer/trace/cull.h"
-#include "tracer/trace/light.h"
-#include "tracer/trace/packet.h"
-#include "tracer/trace/texture.h"
 #include "tracer/trace/tracer.h"
 #include "tracer/trace/tree.h"
 

@@ -5,9 +5,9 @@
 
 #include "tests/unit/support/levels.h"
 #include "tracer/sample/sampler_inside.h"
-#include "tracer/trace/light.h"
-#include "tracer/trace/packet.h"
-#include "tracer/trace/texture.h"
+#include "tracer/rays/light.h"
+#include "tracer/rays/packet.h"
+#include "tracer/rays/texture.h"
 
 /* ---- Packets ---- */
 
@@ -512,11 +512,11 @@ static const level_row samplers[] = {
 };
 
 const level_table level_tracer[] = {
-    LEVEL_TABLE("tracer/trace/packet_isa.c", wf_packet_ops, packets),
-    LEVEL_TABLE("tracer/trace/solid_isa.c", wf_solid_ops, solids),
-    LEVEL_TABLE("tracer/trace/csg_isa.c", wf_csg_ops, csgs),
-    LEVEL_TABLE("tracer/trace/light_isa.c", wf_light_ops, lights),
-    LEVEL_TABLE("tracer/trace/texture_isa.c", wf_texture_ops, textures),
+    LEVEL_TABLE("tracer/rays/packet_isa.c", wf_packet_ops, packets),
+    LEVEL_TABLE("tracer/rays/solid_isa.c", wf_solid_ops, solids),
+    LEVEL_TABLE("tracer/rays/csg_isa.c", wf_csg_ops, csgs),
+    LEVEL_TABLE("tracer/rays/light_isa.c", wf_light_ops, lights),
+    LEVEL_TABLE("tracer/rays/texture_isa.c", wf_texture_ops, textures),
     LEVEL_TABLE("tracer/sample/sampler_isa.c", wf_sampler_ops, samplers),
     {.file = NULL},
 };

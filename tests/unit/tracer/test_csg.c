@@ -9,7 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "tracer/trace/csg.h"
+#include "tracer/rays/csg.h"
 
 #define MOST 8
 

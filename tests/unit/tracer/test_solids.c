@@ -8,7 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "tracer/trace/solid.h"
+#include "tracer/rays/solid.h"
 
 static const wf_plane faces[] = {{{1, 0, 0}, 1},      {{-1, 0, 0}, 1}, {{0, 1, 0}, 1},
                                  {{0, -1, 0}, 1},     {{0, 0, 1}, 1},  {{0, 0, -1}, 1},

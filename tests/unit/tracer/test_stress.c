@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "tests/unit/support/scene_fields.h"
-#include "tracer/trace/solid.h"
+#include "tracer/rays/solid.h"
 
 #define WIDTH  64
 #define LINES  48

@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "filters/base/isa_file.h"
-#include "tracer/trace/packet.h"
-#include "tracer/trace/sincos.h"
+#include "tracer/rays/packet.h"
+#include "tracer/rays/sincos.h"
 
 /* ---- Rays into spaces ---- */
 

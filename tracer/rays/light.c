@@ -1,4 +1,4 @@
 /* Which of the loops over lit packets is used. */
-#include "tracer/trace/light.h"
+#include "tracer/rays/light.h"
 
 WF_ISA_DISPATCH(wf_light_ops)

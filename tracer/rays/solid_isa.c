@@ -7,9 +7,9 @@
 #include <math.h>
 
 #include "filters/base/isa_file.h"
-#include "tracer/trace/double_double.h"
-#include "tracer/trace/quartic.h"
-#include "tracer/trace/solid.h"
+#include "tracer/rays/double_double.h"
+#include "tracer/rays/quartic.h"
+#include "tracer/rays/solid.h"
 
 static int padded(const wf_rays *r) {
     return (r->count + 7) / 8 * 8;
@@ -70,7 +70,7 @@ static wf_double_double metric(const round_side *s, const double o[3], const dou
     return wf_double_double_sum(sum, wf_double_double_minus(wf_double_double_product(at, to)));
 }
 
-/* A ray that all but touches a side, once more. */
+/* The run of a ray that all but touches a side, in double-double. */
 static void touch(const round_side *s, const wf_rays *r, int i, wf_runs *runs) {
     const double o[3] = {r->ox[i], r->oy[i], r->oz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
     wf_double_double q2 = metric(s, d, d, 0, 0), q1 = metric(s, o, d, s->a, 0);
@@ -85,7 +85,8 @@ static void touch(const round_side *s, const wf_rays *r, int i, wf_runs *runs) {
     put(runs, 0, i, most(in, middle - half), least(out, middle + half));
 }
 
-/* Those of the rays that are off a side by less than 0. */
+/* Once more the rays that doubles cannot tell about: off holds how far each is from touching
+ * the side, less the doubt about that. */
 static void touch_near(round_side s, const wf_rays *r, const double *off, wf_runs *runs) {
     int64_t near = 0;
     int n = padded(r);
@@ -378,7 +379,7 @@ static void quadric_normals(NORMALS) {
     }
 }
 
-/* Of the face whose plane is nearest, from within. */
+/* The normal of the face whose plane is nearest, seen from within. */
 static void polyhedron_normals(NORMALS) {
     double best[WF_PACKET];
     for (int i = 0; i < WF_PACKET; i++) best[i] = -HUGE_VAL;

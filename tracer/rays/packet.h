@@ -1,9 +1,9 @@
-#ifndef WF_TRACER_TRACE_PACKET_H
-#define WF_TRACER_TRACE_PACKET_H
+#ifndef WF_TRACER_RAYS_PACKET_H
+#define WF_TRACER_RAYS_PACKET_H
 
 #include "filters/base/isa.h"
+#include "tracer/rays/csg.h"
 #include "tracer/scene/motion.h"
-#include "tracer/trace/csg.h"
 
 /* What is done to whole packets, compiled for each instruction set; all give the same bits.
  * Loops run over all WF_PACKET places of a packet, of which those past its count are copies. */

@@ -1,8 +1,8 @@
-#ifndef WF_TRACER_TRACE_CSG_H
-#define WF_TRACER_TRACE_CSG_H
+#ifndef WF_TRACER_RAYS_CSG_H
+#define WF_TRACER_RAYS_CSG_H
 
 #include "filters/base/isa.h"
-#include "tracer/trace/solid.h"
+#include "tracer/rays/solid.h"
 
 /* Constructive solid geometry along rays, by classification: the end of a run of one solid is
  * the surface of the whole just where the whole, as its program makes it of its solids, is not

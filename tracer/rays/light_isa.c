@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "filters/base/isa_file.h"
-#include "tracer/trace/light.h"
+#include "tracer/rays/light.h"
 
 static void face(const wf_rays *restrict r, wf_points *restrict n) {
     for (int i = 0; i < WF_PACKET; i++) {

@@ -1,5 +1,5 @@
 /* Where a quartic is below 0, for rays through a torus. */
-#include "tracer/trace/quartic.h"
+#include "tracer/rays/quartic.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "filters/base/isa_file.h"
-#include "tracer/trace/sincos.h"
-#include "tracer/trace/texture.h"
+#include "tracer/rays/sincos.h"
+#include "tracer/rays/texture.h"
 
 static inline double dot(wf_vec v, const wf_points *p, int i) {
     return v.x * p->x[i] + v.y * p->y[i] + v.z * p->z[i];

@@ -1,5 +1,5 @@
 /* Which of the loops over programs of solids is used, and hits to begin with. */
-#include "tracer/trace/csg.h"
+#include "tracer/rays/csg.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
-#ifndef WF_TRACER_TRACE_QUARTIC_H
-#define WF_TRACER_TRACE_QUARTIC_H
+#ifndef WF_TRACER_RAYS_QUARTIC_H
+#define WF_TRACER_RAYS_QUARTIC_H
 
 /* Runs of from <= t <= to where q[0] + q[1] t + .. + q[4] t^4 < 0: their ends in pairs,
  * ascending, into end; how many runs (0..2). A run cut by from or to ends there. Roots are

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "filters/base/isa_file.h"
-#include "tracer/trace/csg.h"
+#include "tracer/rays/csg.h"
 
 static inline double least(double a, double b) {
     return a < b ? a : b;

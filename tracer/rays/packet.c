@@ -1,4 +1,4 @@
 /* Which of the loops over packets is used. */
-#include "tracer/trace/packet.h"
+#include "tracer/rays/packet.h"
 
 WF_ISA_DISPATCH(wf_packet_ops)

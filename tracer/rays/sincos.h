@@ -1,5 +1,5 @@
-#ifndef WF_TRACER_TRACE_SINCOS_H
-#define WF_TRACER_TRACE_SINCOS_H
+#ifndef WF_TRACER_RAYS_SINCOS_H
+#define WF_TRACER_RAYS_SINCOS_H
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* Kinds of solids: their boxes, and which of their loops is used. */
-#include "tracer/trace/solid.h"
+#include "tracer/rays/solid.h"
 
 #include <math.h>
 

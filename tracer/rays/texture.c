@@ -1,4 +1,4 @@
 /* Which of the loops over textured points is used. */
-#include "tracer/trace/texture.h"
+#include "tracer/rays/texture.h"
 
 WF_ISA_DISPATCH(wf_texture_ops)

@@ -1,8 +1,8 @@
-#ifndef WF_TRACER_TRACE_LIGHT_H
-#define WF_TRACER_TRACE_LIGHT_H
+#ifndef WF_TRACER_RAYS_LIGHT_H
+#define WF_TRACER_RAYS_LIGHT_H
 
 #include "filters/base/isa.h"
-#include "tracer/trace/packet.h"
+#include "tracer/rays/packet.h"
 
 /* What the rays of a packet see, each its own. Rays that see nothing, or what is unlit, take no
  * light: their lit is 0. */
@@ -22,7 +22,7 @@ typedef struct wf_light_ops {
     void (*choose)(const int64_t *hit, int64_t solid, const double *from, double *to);
     /* How far off the surface rays start: share of the numbers' size. */
     void (*off_surface)(const wf_rays *rays, const double *s, double share, double *off);
-    /* Way from points to the light: to a place, or against a direction. */
+    /* The way from points to a light: to its place, or against the direction it shines in. */
     void (*ways)(const wf_points *points, const wf_points *place, wf_points *ways);
     void (*against)(const wf_points *direction, wf_points *ways);
     /* 1 where the light is before the surface and the surface takes light, else 0. */

@@ -1,8 +1,8 @@
-#ifndef WF_TRACER_TRACE_TEXTURE_H
-#define WF_TRACER_TRACE_TEXTURE_H
+#ifndef WF_TRACER_RAYS_TEXTURE_H
+#define WF_TRACER_RAYS_TEXTURE_H
 
 #include "filters/base/isa.h"
-#include "tracer/trace/solid.h"
+#include "tracer/rays/solid.h"
 
 /* Colors of a texture at the first count points of a packet, in the space that it was written
  * in. */

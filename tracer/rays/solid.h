@@ -1,5 +1,5 @@
-#ifndef WF_TRACER_TRACE_SOLID_H
-#define WF_TRACER_TRACE_SOLID_H
+#ifndef WF_TRACER_RAYS_SOLID_H
+#define WF_TRACER_RAYS_SOLID_H
 
 #include "filters/base/isa.h"
 #include "tracer/scene/scene.h"
