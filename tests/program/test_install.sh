@@ -1,15 +1,12 @@
 #!/bin/bash
 # Installs the build and uses it from outside: the program, pkg-config and find_package, with the
-# shared library and, from a second build, with the static one.
-
-set -eu
-if [ -n "${WEFT_SANITIZE:-}" ]; then
-    echo "SKIP: an installation is tried with an ordinary build"
-    exit 77
-fi
+# shared library and, from a second build, with the static one; and the lines of README.md as printed,
+# under /usr/local.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized never
 version=$(sed -n 's/^#define WEFT_VERSION "\(.*\)"/\1/p' "$WEFT_SOURCE/convert/weft.h")
 
-cat >"$TMPDIR/user.c" <<'END'
+cat >user.c <<'END'
 #include <stdio.h>
 #include <string.h>
 #include <weft.h>
@@ -27,58 +24,111 @@ int main(void)
     return !ok;
 }
 END
-
-# Compiles the user's program against PREFIX in both ways and runs it.
-use()
-{
-    local prefix=$1 static=$2 libdir
-    libdir=$(dirname "$(find "$prefix" -name pkgconfig)")
-    export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir
-    [ "$(pkg-config --modversion weft)" = "$version" ]
-    # shellcheck disable=SC2046
-    "$CC" -std=c17 "$TMPDIR/user.c" -o "$TMPDIR/user" $(pkg-config --cflags --libs $static weft)
-    "$TMPDIR/user"
-    cp "$TMPDIR/user.c" "$TMPDIR/user.cpp"
-    # shellcheck disable=SC2046
-    "$CXX" -std=c++17 "$TMPDIR/user.cpp" -o "$TMPDIR/user" $(pkg-config --cflags --libs $static weft)
-    "$TMPDIR/user"
-
-    rm -rf "$TMPDIR/user-build"
-    mkdir -p "$TMPDIR/user-source"
-    cp "$TMPDIR/user.c" "$TMPDIR/user-source"
-    cat >"$TMPDIR/user-source/CMakeLists.txt" <<'END'
+cp user.c user.cpp
+mkdir user
+cp user.c user
+cat >user/CMakeLists.txt <<'END'
 cmake_minimum_required(VERSION 3.16)
 project(user C)
 find_package(weft 0.1 REQUIRED)
 add_executable(user user.c)
 target_link_libraries(user PRIVATE weft::weft)
 END
-    cmake -S "$TMPDIR/user-source" -B "$TMPDIR/user-build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
-    cmake --build "$TMPDIR/user-build" >/dev/null
-    env -u LD_LIBRARY_PATH "$TMPDIR/user-build/user"
+
+# installed BUILD PREFIX
+installed() { exits 0 cmake --install "$1" --prefix "$2"; }
+
+# compiled COMPILER FILE STANDARD: against what pkg-config says; it runs.
+# shellcheck disable=SC2046,SC2086
+compiled() { exits 0 $1 -std=$3 "$2" -o by-pkg-config $(pkg-config --cflags --libs $static weft) && exits 0 ./by-pkg-config; }
+
+by_cmake()
+{
+    rm -rf user-build
+    cmake -S user -B user-build -DCMAKE_PREFIX_PATH="$1" >/dev/null && cmake --build user-build >/dev/null &&
+        exits 0 env -u LD_LIBRARY_PATH user-build/user
 }
 
-echo "== Shared library"
-cmake --install "$WEFT_BUILD" --prefix "$TMPDIR/shared" >/dev/null
-use "$TMPDIR/shared" ""
+# use PREFIX [--static]: the user's program in three ways.
+use()
+{
+    static=${2:-}
+    local libdir
+    libdir=$(dirname "$(find "$1" -name pkgconfig)")
+    export PKG_CONFIG_PATH=$libdir/pkgconfig LD_LIBRARY_PATH=$libdir
+    check "pkg-config $static" same "$(pkg-config --modversion weft)" "$version"
+    check "C by pkg-config $static" compiled "$CC" user.c c17
+    check "C++ by pkg-config $static" compiled "$CXX" user.cpp c++17
+    check "C by find_package $static" by_cmake "$1"
+    unset PKG_CONFIG_PATH LD_LIBRARY_PATH
+}
+
+# ---- The shared library ----
+
+check "install" installed "$WEFT_BUILD" "$work/shared"
+use "$work/shared"
 for file in include/weft.h share/weft/weft.ocio share/doc/weft/LICENSE share/doc/weft/README.md \
-    share/doc/weft/examples/quickstart.sh share/man/man1/weft.1 \
+    share/doc/weft/examples/quickstart.sh share/man/man1/weft.1 lib/python3/dist-packages/weft/__init__.py \
     share/bash-completion/completions/weft share/zsh/site-functions/_weft \
     share/fish/vendor_completions.d/weft.fish; do
-    [ -f "$TMPDIR/shared/$file" ] || { echo "FAILED: $file is not installed"; exit 1; }
+    check "$file" test -f "shared/$file"
 done
+mv shared moved
+check "the program, moved from where it was built for" exits 0 moved/bin/weft --version
+check "tells its version" prints "$version"
+check "and finds its modules" exits 0 moved/bin/weft filters shaped --plot shaped.png
+check "to plot" png shaped.png
 
-echo "== Installed program, moved from where it was built for"
-mv "$TMPDIR/shared" "$TMPDIR/moved"
-program=$TMPDIR/moved/bin/weft
-[ "$("$program" --version | grep -c "$version")" = 1 ]
-"$program" filters shaped --plot "$TMPDIR/shaped.png"
-[ "$(head -c 4 "$TMPDIR/shaped.png" | tail -c 3)" = PNG ]
+# ---- What the quick start builds can be installed ----
 
-echo "== Static library"
-cmake -S "$WEFT_SOURCE" -B "$TMPDIR/static-build" -G Ninja -DBUILD_SHARED_LIBS=OFF \
-    -DBUILD_TESTING=OFF -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
-    -DCMAKE_BUILD_TYPE=Debug >/dev/null
-cmake --build "$TMPDIR/static-build" >/dev/null
-cmake --install "$TMPDIR/static-build" --prefix "$TMPDIR/static" >/dev/null
-use "$TMPDIR/static" --static
+check "the quick start builds all" test -z "$(grep -e '--target' "$WEFT_SOURCE/examples/quickstart.sh")"
+
+# ---- README.md, as printed ----
+
+# In namespaces of its own, where /etc and /usr/local are others: nothing is left on this machine.
+cat >private.sh <<'END'
+set -e
+mkdir -p local aux && cp -a /etc etc
+mount --bind etc /etc && mount --bind local /usr/local
+[ ! -d /var/cache/ldconfig ] || mount --bind aux /var/cache/ldconfig
+cmake --install "$WEFT_BUILD" --prefix /usr/local >/dev/null
+cd readme
+sed -n '/^```c$/,/^```$/p' "$WEFT_SOURCE/README.md" | sed '/^```/d' >shot.c
+eval "$(grep '^ *cc shot.c ' "$WEFT_SOURCE/README.md")"
+./a.out
+rm shot.y4m
+{
+    echo "import numpy; y, x = numpy.indices((486, 720)).reshape(2, -1) + .5" # a sample a pixel
+    echo "t, rgb = 0 * x, numpy.full((720 * 486, 3), .5)"
+    sed -n '/^```python$/,/^```$/p' "$WEFT_SOURCE/README.md" | sed '/^```/d'
+} >shot.py
+PATH=/usr/bin:/bin python3 shot.py
+PATH=/usr/bin:/bin python3 -c 'import weft; print(weft.library_path)'
+man -w weft 2>/dev/null || ls /usr/local/share/man/man1/weft.1
+END
+subframes in 16
+mkdir readme
+for ((k = 0; k < 16; k++)); do cp in/subframe.$(printf %04d "$k").exr readme/shot.$(printf %04d "$k").exr; done
+namespace=(unshare --mount)
+[ "$(id -u)" = 0 ] || namespace+=(--user --map-root-user)
+case $(command -v cmake cc pkg-config) in */usr/local/*) namespace=(false) ;; esac
+if ! "${namespace[@]}" bash -c 'mkdir -p try && mount --bind try /usr/local' 2>/dev/null; then
+    skip_part "README.md under /usr/local: mount namespaces cannot be made, or the compiler lies there"
+elif ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+    skip_part "README.md under /usr/local: no python3-numpy"
+else
+    check "the lines of README.md run" exits 0 "${namespace[@]}" env -u PKG_CONFIG_PATH -u LD_LIBRARY_PATH \
+        -u PYTHONPATH -u WEFT_LIBRARY bash private.sh
+    check "and made the video" test -s readme/shot.y4m
+    check "Python has the library that was installed" prints /usr/local/lib
+fi
+
+# ---- The static library ----
+
+cmake -S "$WEFT_SOURCE" -B static-build -G Ninja -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
+    -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_BUILD_TYPE=Debug >/dev/null
+check "a static build" exits 0 cmake --build static-build
+check "is installed" installed static-build "$work/static"
+use "$work/static" --static
+
+finish
