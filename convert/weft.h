@@ -194,7 +194,7 @@ typedef struct weft_raster {
     bool interlaced, segmented, top_first; /* top_first means something when interlaced */
     int64_t pixel_aspect_num, pixel_aspect_den;
     const char *matrix;            /* "601-525", "601-625", "709", "2020" */
-    int line1, line2, total_lines; /* analogue line map; 0 where there is none */
+    int line1, line2, total_lines; /* analog line map; 0 where there is none */
 } weft_raster;
 
 /* Named raster i; false past the end. */

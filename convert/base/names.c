@@ -152,8 +152,8 @@ size_t wf_group_end(const wf_numbered_list *list, size_t start) {
     return end;
 }
 
-/* The shortest numbers of a group, digits before and after the '.'; no decimals: whole numbers.
- */
+/* The fewest digits before and after the '.' that the numbers of a group have; *decimals is
+ * 0 for whole numbers. */
 static void shortest(const wf_numbered_list *list, size_t first, size_t end, int *digits,
                      int *decimals) {
     *digits = *decimals = 0;

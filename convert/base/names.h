@@ -5,7 +5,7 @@
 #include "convert/base/pattern.h"
 
 /* The names of a directory's files (no directories, no "." and ".."), one '\0'-ended after the
- * other: a million take one listing and one block. */
+ * other: a million of them take one listing and one block. */
 typedef struct wf_names {
     char *text;
     size_t bytes, capacity, count;

@@ -19,7 +19,7 @@
 
 struct wf_outfile {
     wf_outplace place;
-    bool named;    /* "-" and devices are not: they are written as they come */
+    bool named;    /* false: "-", pipes and devices, which are written as they come */
     bool borrowed; /* standard output stays open */
     int fd;
     unsigned char *buffer;
@@ -34,7 +34,7 @@ static const char *name_of(const wf_outfile *file) {
     return file->borrowed ? "standard output" : file->place.path;
 }
 
-/* Keeps the failure and hands it out, as it will be from now on. */
+/* Keeps the failure, which every later call returns again, and hands it out. */
 static weft_status stick(wf_outfile *file, int code, const char *doing, weft_error *err) {
     const char *hint = code == ENOSPC || code == EDQUOT ? "; make room, or write elsewhere"
                        : code == EPIPE                  ? "; whoever was reading it has stopped"
@@ -47,9 +47,9 @@ static weft_status stick(wf_outfile *file, int code, const char *doing, weft_err
 
 /* ---- Writing ---- */
 
-/* writev, without the signals that a closed pipe (SIGPIPE) and a limit on the size of files
- * (SIGXFSZ) send and that whoever uses the library may not have thought of. Those pending
- * before stay. */
+/* writev, without the signals of a closed pipe (SIGPIPE) and of a limit on the size of files
+ * (SIGXFSZ), which a program that uses the library may not expect. Signals that were pending
+ * before stay so. */
 static ssize_t write_quietly(int fd, const struct iovec *pieces, int count) {
     sigset_t quiet, pending, before;
     sigemptyset(&quiet);
@@ -68,8 +68,8 @@ static ssize_t write_quietly(int fd, const struct iovec *pieces, int count) {
     return written;
 }
 
-/* Writes all of the pieces; returns 0 or an errno. Standard output may be a pipe that does not
- * block: whoever shares it has chosen so. */
+/* Writes all of the pieces; returns 0 or an errno. It waits where standard output is a pipe
+ * that does not block, since that mode belongs to whoever shares the pipe. */
 static int write_pieces(int fd, struct iovec *pieces, int count) {
     while (count) {
         if (!pieces->iov_len) {
@@ -104,7 +104,7 @@ weft_status wf_outfile_write(wf_outfile *file, const void *data, size_t bytes,
     struct iovec pieces[2] = {{file->buffer, file->used}, {(void *)(uintptr_t)data, bytes}};
     file->used = 0;
     int code = write_pieces(file->fd, pieces, 2);
-    /* The disk may begin at once, so that the sync at the end has little left to wait for. */
+    /* Has the disk begin at once, so that the sync at the end has little left to wait for. */
     if (file->named) sync_file_range(file->fd, 0, 0, SYNC_FILE_RANGE_WRITE);
     return code ? stick(file, code, "cannot be written", err) : WEFT_OK;
 }
@@ -189,7 +189,7 @@ weft_status wf_outfile_open(const char *path, bool overwrite, wf_outfile **out,
     return status;
 }
 
-/* Returns 0 or an errno. Where a file system has nothing to sync that is no trouble. */
+/* Returns 0 or an errno. A file system that has nothing to sync is no failure. */
 static int sync_data(int fd) {
     while (fdatasync(fd)) {
         if (errno == EINVAL || errno == ENOSYS) return 0;

@@ -46,7 +46,7 @@ static char *link_target(const char *path) {
     return asprintf(&joined, "%.*s%s", directory, path, text) < 0 ? NULL : joined;
 }
 
-/* Follows links as '>' of a shell does, one that leads nowhere included. */
+/* Follows links as a shell's '>' does, including one that leads nowhere. */
 static weft_status follow_links(wf_outplace *place, weft_error *err) {
     place->target = strdup(place->path);
     if (!place->target) return no_memory(place->path, err);
@@ -104,8 +104,8 @@ static int open_nameless(const char *directory) {
     return -1;
 }
 
-/* A name beside the target that no file had; *fd receives what `make` makes of it, or is -1
- * with errno. The name is NULL when memory is out. */
+/* Makes a temporary name beside the target that no file has, and calls `make` with it; *fd
+ * receives what that returns, or -1 with errno set. The name is NULL when memory is out. */
 typedef int make_fn(const char *name, int fd);
 static char *beside(const wf_outplace *place, make_fn *make, int *fd) {
     const char *target = place->target;
@@ -177,7 +177,7 @@ static int link_as(const char *name, int fd) {
     return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW);
 }
 
-/* Renames where nothing may be replaced, also on file systems that cannot promise it. */
+/* Renames without replacing anything, also where the file system cannot promise that. */
 static int rename_new(const char *from, const char *to) {
     if (!renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE)) return 0;
     if (errno != EINVAL && errno != ENOSYS) return -1;
@@ -206,8 +206,8 @@ static int give_name(wf_outplace *place, int fd) {
     return 0;
 }
 
-/* The name itself is data of the directory. Where a directory cannot be synced nothing is lost
- * that could be kept. */
+/* A new name is data of its directory, which is therefore synced too. Directories that
+ * cannot be synced are passed over, since no other way would save more. */
 static int sync_directory(const wf_outplace *place) {
     char *directory = directory_of(place);
     if (!directory) return ENOMEM;
@@ -220,8 +220,8 @@ static int sync_directory(const wf_outplace *place) {
 }
 
 weft_status wf_outplace_publish(wf_outplace *place, int fd, weft_error *err) {
-    /* Network file systems tell of a full disk when a file is closed: before it has its name,
-     * unless it needs its descriptor to get one. */
+    /* Network file systems report a full disk when a file is closed. It is closed before it
+     * has its name, unless its descriptor is needed to give it one. */
     bool early = place->temporary;
     int code = early && close(fd) && errno != EINTR ? errno : 0;
     if (code) return fail_at(place, "cannot be written", code, err);

@@ -49,7 +49,7 @@ static bool number_value(const char *text, size_t digits, size_t decimals, wf_ra
 typedef struct field {
     size_t start, end;
     int digits, fewest;
-    bool weak; /* '@' only: no field where there is another */
+    bool weak; /* it is of '@' only, which is no field where the name has another one */
 } field;
 
 static void read_marks(const char *name, field *out) {

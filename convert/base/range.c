@@ -222,8 +222,8 @@ static bool fill(const wf_frame_range *range, wf_rational *numbers) {
     return ascending;
 }
 
-/* The shortest and longest way from a number to the next; {0, 0} if there is only one number.
- */
+/* The least and the greatest step from a number to the next; {0, 0} if there is only one
+ * number. */
 static void measure(const wf_rational *numbers, int64_t count, wf_rational *shortest,
                     wf_rational *longest) {
     *shortest = *longest = does_not_fit;
@@ -234,7 +234,7 @@ static void measure(const wf_rational *numbers, int64_t count, wf_rational *shor
     }
 }
 
-/* One rate goes with one step: "1-10,12-20x2" has two. */
+/* A selection has one step, since it has one rate: "1-10,12-20x2" is refused. */
 static weft_status settle_step(const wf_frame_range *range, const char *text,
                                const wf_rational *numbers, wf_rational *step, weft_error *err) {
     wf_rational longest;

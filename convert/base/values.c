@@ -42,7 +42,7 @@ bool wf_parse_size(const char *text, size_t *bytes) {
 
 #define MOST_CHUNKS 1000000
 
-/* Reads digits of a number up to most and moves past them. */
+/* Reads a whole number of at most `most` and moves past its digits. */
 static bool read_count(const char **text, int most, int *out) {
     const char *start = *text;
     int64_t value = 0;

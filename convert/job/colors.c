@@ -23,8 +23,9 @@ static const struct {
 
 enum { TAGGED = sizeof tagged / sizeof *tagged };
 
-/* Where a space ends in -camera its transfer is that of the same name; the code points do not
- * tell a BT.1886 display's inverse from the camera's curve. TAGGED: none. */
+/* The row of a space; TAGGED if it has none. A space that ends in -camera has the row of the
+ * same name without it, since code points do not tell a BT.1886 display's inverse from the
+ * camera's curve. */
 static size_t find_tags(const char *space) {
     const char *dash = space ? strstr(space, "-camera") : NULL;
     size_t length = dash ? (size_t)(dash - space) : space ? strlen(space) : 0, i = 0;
@@ -38,7 +39,7 @@ bool wf_color_has_tags(const char *space) {
     return find_tags(space) < TAGGED;
 }
 
-/* Rec. BT.601's two matrices are one, which QuickTime calls 6. */
+/* Both systems of Rec. BT.601 have one matrix, whose code point is 6 in QuickTime. */
 wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix) {
     static const int matrices[] = {
         [WF_601_525] = 6, [WF_601_625] = 6, [WF_709] = 1, [WF_2020] = 9};

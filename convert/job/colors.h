@@ -22,8 +22,8 @@ typedef struct wf_color_tags {
 /* Whether a space is one that has code points. */
 bool wf_color_has_tags(const char *space);
 
-/* Those of codes that are in a space of color/weft.ocio, with the raster's Y'CbCr; of a space
- * that has no code points, the raster's own. */
+/* The tags of codes that are in a space of color/weft.ocio, with the raster's Y'CbCr. For a
+ * space that has no code points they are the raster's own. */
 wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix);
 
 #endif

@@ -28,7 +28,8 @@ static const wf_delivery_form dnxhr_forms[] = {
 #define TABLE(depth, number) .bits = (depth), .bit_rate = (number)*MEGABITS
 #define RATES_CAMERA         (WF_RATE_23_976 | WF_RATE_25 | WF_RATE_29_97)
 
-/* Frames of one table of DNxHD have one size, whatever the rate: the bit rate is its name. */
+/* All frames of a DNxHD table have one size at any rate, and the bit rate at 25 (50) frames
+ * a second names the table. */
 static const wf_delivery_form dnxhd_forms[] = {
     {SIZE(1920, 1080), SCAN(TOP, RATES_I), TABLE(10, 185)},
     {SIZE(1920, 1080), SCAN(TOP, RATES_I), TABLE(8, 120)},
@@ -50,9 +51,9 @@ static const wf_delivery_form avci_forms[] = {
     {SIZE(1280, 720), SCAN(WHOLE, WF_RATE_50 | WF_RATE_59_94)},
 };
 
-/* SMPTE ST 356 codes lines from 7 and 320 of 625 and from 7 and 270 of 525. Frames have all
- * one size, in 525 the 208540 bytes that libavformat makes of the rate that it takes there,
- * which the encoder fills at the one beside it. */
+/* SMPTE ST 356 codes lines from 7 and 320 of 625 and from 7 and 270 of 525. All frames have
+ * one size. In 525 it is the 208540 bytes that libavformat computes from stated_rate; the
+ * encoder fills them exactly at bit_rate. */
 static const wf_delivery_form imx_forms[] = {
     {SIZE(720, 576), SCAN(TOP, WF_RATE_25), TABLE(8, 50), .above_lines = 32},
     {SIZE(720, 486), SCAN(TOP, WF_RATE_29_97), .bit_rate = 49999601, .stated_rate = 49999840,
@@ -79,7 +80,7 @@ static const wf_delivery_form dv_forms[] = {
              .default_bits = preset,                                                           \
              .fixed_422 = always_422,                                                          \
              .container = true}
-/* Uncompressed 4:2:2 in MXF, of own make. */
+/* Uncompressed 4:2:2 in MXF, which weft writes without libav. */
 #define RAW_MXF(codec, about, bits)                                                            \
     .kind = {.name = codec,                                                                    \
              .endings = "mxf",                                                                 \
@@ -165,7 +166,7 @@ static bool ends_in(const wf_delivery *row, const char *ending) {
     return !strcasecmp(row->kind.endings, ending);
 }
 
-/* "v210, prores, .."; of one ending or of all (NULL), each once. */
+/* Writes "v210, prores, ..": the codecs of one ending, or all (NULL), each once. */
 static void list_codecs(const char *ending, char *text, size_t size) {
     size_t used = 0;
     *text = '\0';
@@ -261,7 +262,8 @@ static const wf_delivery_form *find_form(const wf_delivery *delivery, const wf_r
     return NULL;
 }
 
-/* "--raster 525i-dv, 625i-dv", or what any raster has to be. */
+/* Writes which rasters the delivery takes: "--raster 525i-dv, 625i-dv", or a description
+ * where it takes any size. */
 static void tell_rasters(const wf_delivery *delivery, int bits, char *text, size_t size) {
     const wf_raster *r;
     size_t used = 0;
@@ -276,7 +278,7 @@ static void tell_rasters(const wf_delivery *delivery, int bits, char *text, size
                                      used ? ", " : "--raster ", r->name);
 }
 
-/* "; of .mxf --codec imx50, v210 take it": codecs of the same container, at any bits. */
+/* Writes "imx50, v210": the codecs of the same container that take the raster at any depth. */
 static void tell_others(const wf_output_options *o, char *text, size_t size) {
     size_t used = 0;
     *text = '\0';
@@ -309,8 +311,9 @@ const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
     return form;
 }
 
-/* Lines of the frame belong to the fields in turn, the top one to the second field where the
- * raster is bottom first; of k dropped it loses the odd one. */
+/* Lines of the frame belong to the fields in turn; the top line belongs to the second field
+ * where the raster is bottom first. Of k lines dropped, the field of the top line loses the
+ * odd one. */
 wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *raster) {
     wf_raster r = *raster;
     int shift = form->skip_lines - form->above_lines;
@@ -326,7 +329,7 @@ wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *rast
 
 /* ---- QuickTime's names ---- */
 
-/* libavformat 5.1 takes 29.97 for 29 and does not find them. */
+/* libavformat 5.1 rounds 29.97 to 29 and then finds none of these codes, so they are given. */
 wf_delivery_mark wf_delivery_quicktime(const wf_delivery *delivery, const wf_raster *raster) {
     static const struct {
         const char *codec;

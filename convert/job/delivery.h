@@ -3,8 +3,8 @@
 
 #include "convert/job/output.h"
 
-/* Deliveries: a codec in a container. Each is a row of the registry of outputs and of what
- * libavformat and libavcodec are told. The table needs neither library. */
+/* Deliveries: a codec in a container. A row says what the output takes, as other outputs do,
+ * and what libavformat and libavcodec are told; the table needs neither library. */
 
 /* Which rasters a codec takes, and what it makes of their lines. */
 typedef struct wf_delivery_form {
@@ -64,7 +64,8 @@ const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
 /* The raster as it is in the file: lines cut off and added, line map and order that follow. */
 wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *raster);
 
-/* What QuickTime calls one that has a code for every raster; {0}: libavformat knows. */
+/* What QuickTime calls a codec that has a code of its own for every raster; {0}: libavformat
+ * gives the code. */
 typedef struct wf_delivery_mark {
     char tag[5];      /* of the sample description */
     const char *name; /* the same in words */

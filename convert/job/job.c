@@ -87,7 +87,8 @@ const char *weft_job_report(const weft_job *job) {
 
 /* ---- Contradictions ---- */
 
-/* Which frames a second has, and whether it drops labels, depends on the raster. */
+/* Whether a label exists depends on the raster: how many frames a second has, and whether
+ * labels are dropped. */
 static weft_status check_timecode(const weft_job *job, weft_error *err) {
     wf_timecode timecode;
     char why[256];
@@ -98,7 +99,8 @@ static weft_status check_timecode(const weft_job *job, weft_error *err) {
                    job->raster.name);
 }
 
-/* Film is brought to 60 fields a second, one film frame seen at one time by all its fields. */
+/* A cadence spreads film frames over 60 fields a second; all fields of a film frame see one
+ * time. */
 static weft_status check_cadence(const weft_job *job, weft_error *err) {
     if (job->cadence == WF_CADENCE_NONE) return WEFT_OK;
     if (job->command == WF_TRACE)

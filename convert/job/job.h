@@ -88,8 +88,8 @@ void wf_job_warn(const weft_job *job, const char *format, ...)
  * looks at first. Options may be set in any order. */
 weft_status wf_job_check(const weft_job *job, weft_error *err);
 
-/* What only shows when all options are known, of a job that wf_job_check passes: the raster
- * takes on the cadence. */
+/* Settles what depends on several options, in a job that wf_job_check passes: the raster takes
+ * on the cadence. */
 void wf_job_settle(weft_job *job);
 
 #endif

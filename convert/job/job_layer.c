@@ -10,7 +10,8 @@ void wf_job_layer_begin(weft_job *job, wf_job_layer *layer) {
     job->overwrite = job->resume = job->width_given = job->angle_given = false;
 }
 
-/* What the layer did not say, and does not exclude, is as it was. */
+/* Puts back what was there before the layer, unless the layer says something itself or
+ * excludes it. */
 static void restore(char **now, char *before, bool excluded) {
     if (*now || excluded)
         free(before);

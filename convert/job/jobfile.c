@@ -72,7 +72,7 @@ static weft_status wrong(const loading *l, weft_error *err, const char *format, 
                    text);
 }
 
-/* A refusal by whoever takes the value, with the place before it. */
+/* Puts file, line and column before the refusal of whoever takes the value. */
 static weft_status placed(const loading *l, weft_status status, const weft_error *why,
                           weft_error *err) {
     if (!status) return WEFT_OK;
@@ -124,8 +124,8 @@ static bool lists(const char *takes, const char *word) {
     return false;
 }
 
-/* path seen from the job file's folder; "hash:FILE" keeps its scheme before it. free(); NULL:
- * no memory. */
+/* Returns path as seen from the job file's folder; "hash:FILE" keeps its scheme in front.
+ * The caller frees it; NULL when memory is out. */
 static char *from_folder(const loading *l, const char *path) {
     const char *folder = l->text->path, *slash = strrchr(folder, '/');
     size_t scheme = strncmp(path, "hash:", 5) ? 0 : 5;
@@ -198,7 +198,7 @@ static weft_status set_scalar(const loading *l, const json_t *value, weft_error 
     return set_one(l, text, true, err);
 }
 
-/* [0, 0.5, 1] of an option that takes R,G,B. */
+/* An array of numbers, [0, 0.5, 1], for an option that takes R,G,B. */
 static weft_status set_list(const loading *l, const json_t *array, weft_error *err) {
     char text[1024] = "", digits[400];
     size_t used = 0;

@@ -8,7 +8,8 @@
 /* Job files: one JSON object (RFC 8259) that says what the command line says. Keys are the
  * names of options, and "inputs" (a string or an array), "output" and "command". */
 
-/* Options that whoever loads a job file takes beside, or instead of, weft_job_set's. */
+/* Who takes the options of a job file, instead of weft_job_set: a command, which has options of
+ * its own beside the job's. */
 typedef struct wf_jobfile_taker {
     void *user;
     /* Option i, and whether it may be given several times; false past the end. */

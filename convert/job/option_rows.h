@@ -26,8 +26,8 @@ struct wf_option_row {
     bool repeats;               /* several may be given */
 };
 
-/* Each stores a value in the member of a job that its row points at, or says what the option
- * takes. */
+/* Setters. Each stores a value in the member of a job that its row points at, or says what the
+ * option takes. */
 wf_option_set wf_set_text, wf_set_flag, wf_set_choice, wf_set_switch, wf_set_bits, wf_set_ratio,
     wf_set_rate, wf_set_width, wf_set_angle, wf_set_threads, wf_set_whole, wf_set_param,
     wf_set_oversample, wf_set_raster, wf_set_aperture, wf_set_background, wf_set_chunk,

@@ -40,7 +40,7 @@ weft_status wf_set_flag(weft_job *job, const wf_option_row *row, const char *val
     return WEFT_OK;
 }
 
-/* Which of the words of row->shown.takes value is; -1: none. */
+/* The index of value among the words of row->shown.takes; -1 if it is none of them. */
 static int choice_index(const wf_option_row *row, const char *value) {
     size_t length = strlen(value);
     const char *word = row->shown.takes;
@@ -149,7 +149,7 @@ weft_status wf_set_whole(weft_job *job, const wf_option_row *row, const char *va
     return WEFT_OK;
 }
 
-/* Several may be given; of one name the last counts. */
+/* Several values may be given; of two with one name the scene sees the later. */
 weft_status wf_set_param(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {
     const char *equals = strchr(value, '=');
@@ -163,7 +163,7 @@ weft_status wf_set_param(weft_job *job, const wf_option_row *row, const char *va
     return WEFT_OK;
 }
 
-/* Looked at when the raster is known. */
+/* Whether the numbers suit the raster is checked when that is known. */
 weft_status wf_set_oversample(weft_job *job, const wf_option_row *row, const char *value,
                               weft_error *err) {
     int across, down, times;
@@ -216,7 +216,7 @@ weft_status wf_set_size(weft_job *job, const wf_option_row *row, const char *val
         err);
 }
 
-/* What FF may be depends on the raster and is checked with it. */
+/* How large FF may be depends on the raster, with which wf_job_check looks at it. */
 weft_status wf_set_timecode(weft_job *job, const wf_option_row *row, const char *value,
                             weft_error *err) {
     if (wf_parse_timecode(value, &(wf_timecode){0})) return wf_set_text(job, row, value, err);
@@ -224,7 +224,7 @@ weft_status wf_set_timecode(weft_job *job, const wf_option_row *row, const char 
                   err);
 }
 
-/* Which of the numbers exist is seen when the input is. */
+/* Which of these numbers have files is seen when the input is opened. */
 weft_status wf_set_frames(weft_job *job, const wf_option_row *row, const char *value,
                           weft_error *err) {
     wf_frame_range range;

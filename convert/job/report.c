@@ -97,7 +97,8 @@ static void add_seconds(wf_json *json, const wf_report *report) {
     wf_json_close(json);
 }
 
-/* Not getrusage: its figure is inherited from whoever started this process. */
+/* /proc rather than getrusage, whose figure is inherited from the process that started this
+ * one. */
 int64_t wf_peak_memory_bytes(void) {
     FILE *status = fopen("/proc/self/status", "r");
     if (!status) return 0;

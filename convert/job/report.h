@@ -11,7 +11,7 @@
  * of all frames. */
 typedef struct wf_report_legal {
     const char
-        *legalize;      /* "none", "clip", "r103"; NULL: nothing was quantised, "legal" is {} */
+        *legalize;      /* "none", "clip", "r103"; NULL: nothing was quantized, "legal" is {} */
     const char *dither; /* "none", "tpdf" */
     const char *range;  /* "narrow", "full" */
     int bits;
@@ -38,7 +38,7 @@ typedef struct wf_report {
     wf_report_legal legal;
     void (*add_plan)(wf_json *json, const void *plan); /* of a dry run; NULL: of none */
     void *plan;
-    double trace_s; /* of all threads together, as the others but wall are */
+    double trace_s; /* summed over threads, as all of these but wall_s are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
     bool degraded;             /* frames were held, or NaN and Inf replaced */

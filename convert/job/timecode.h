@@ -36,7 +36,8 @@ bool wf_timecode_convert(wf_timecode label, wf_rational from, wf_rational to, wf
 #define WF_TIMECODE_SIZE 20
 const char *wf_timecode_text(const wf_timecode *label, char text[WF_TIMECODE_SIZE]);
 
-/* How many frames such a word counts as one. */
+/* How many frames share a label in EXR and DPX, whose words hold labels up to 39: 1 where those
+ * are enough, 2 at 50 to 60 frames a second, and so on. */
 int wf_timecode_together(wf_rational rate);
 
 /* The word that EXR (timeCode) and DPX hold: binary coded decimal, from the lowest bits frames,

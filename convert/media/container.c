@@ -8,7 +8,7 @@
 #include "convert/media/container_mov.h"
 #include "convert/media/klv.h"
 
-#define SET_MOST        8192 /* bytes of a descriptor, which has some hundred */
+#define SET_MOST        8192 /* bytes of a descriptor that is completed; they have some hundred */
 #define DOMINANCE_BYTES 5
 #define SETS_MOST       (1 << 20)
 #define LONG_LENGTH     0x83 /* three bytes of length follow */
@@ -20,7 +20,7 @@ static void put_item(uint8_t *set, size_t bytes, unsigned tag, uint64_t value) {
     if (length) wf_put_big_endian(set + at, value, length);
 }
 
-/* Whole frames have the map of their lines' own numbering. */
+/* Frames that are whole keep the line map of libavformat, which counts their own lines. */
 static void put_line_map(uint8_t *set, size_t bytes, const wf_raster *r) {
     size_t length, at = wf_klv_item(set, bytes, WF_MXF_LINE_MAP, &length);
     if (length != 16 || !r->total_lines || r->scan != WF_INTERLACED) return;
@@ -28,7 +28,8 @@ static void put_line_map(uint8_t *set, size_t bytes, const wf_raster *r) {
     wf_put_big_endian(set + at + 12, (uint64_t)r->line2, 4);
 }
 
-/* The rasters of 601 are 4:3 or 16:9 pictures, whatever their pixels make of it exactly. */
+/* The picture of a 601 raster is called 4:3 or 16:9, though its pixels do not come to that
+ * exactly. */
 static void put_aspect(uint8_t *set, size_t bytes, const wf_raster *r) {
     size_t length, at = wf_klv_item(set, bytes, WF_MXF_ASPECT, &length);
     bool of_601 = r->matrix == WF_601_525 || r->matrix == WF_601_625;
@@ -38,8 +39,8 @@ static void put_aspect(uint8_t *set, size_t bytes, const wf_raster *r) {
     wf_put_big_endian(set + at + 4, wide ? 9 : 3, 4);
 }
 
-/* The field that is first in time is field 1 in all rasters. libavformat says so of some
- * codecs; here the item is put at the end. */
+/* The field that is first in time is field 1 in all rasters. libavformat writes the item for
+ * some codecs only; for the others it is appended to the set. */
 static size_t put_dominance(uint8_t *set, size_t bytes, const wf_raster *r) {
     size_t length;
     (void)wf_klv_item(set, bytes, WF_MXF_DOMINANCE, &length);
@@ -75,7 +76,8 @@ static weft_status put_length(wf_outfile *file, int64_t value_at, size_t bytes,
     return put_bytes(file, value_at - 4, length, sizeof length, err);
 }
 
-/* The fill item that ends the header's sets, and whether both lengths can be changed. */
+/* Finds the fill item behind the sets of the header. *fits: its length and that of `set` can
+ * be changed. */
 static weft_status find_fill(wf_outfile *file, const wf_klv *set, wf_klv *fill, bool *fits,
                              weft_error *err) {
     bool end = false;
@@ -91,8 +93,8 @@ static weft_status find_fill(wf_outfile *file, const wf_klv *set, wf_klv *fill, 
     return status;
 }
 
-/* Moves what stands between a set and the fill item behind it on by `more` bytes, which the
- * fill item gives. */
+/* Makes the set longer by `more` bytes: what stands between it and the fill item moves on,
+ * and the fill item becomes as much shorter. */
 static weft_status move_sets(wf_outfile *file, const wf_klv *set, const wf_klv *fill,
                              size_t more, weft_error *err) {
     size_t between = (size_t)(fill->value - set->next), got = 0;

@@ -47,8 +47,8 @@ static uint8_t *begin(atoms *a, const char *type, uint32_t bytes) {
     return atom + 8;
 }
 
-/* One field (progressive), or two of which lines are stored in turn: 9, the top one is shown
- * first; 14, the bottom one. */
+/* Progressive files have one field. Others have two, whose lines are stored in turn: 9 says
+ * that the top field is shown first, 14 the bottom one. */
 static void put_fields(atoms *a) {
     const wf_raster *r = a->facts->raster;
     uint8_t *value = begin(a, "fiel", 10);
@@ -105,14 +105,15 @@ static bool is_own(const uint8_t *atom) {
     return false;
 }
 
-/* Bytes of the atom at `at`, which ends before `end`; 0: there is none, but a terminator. */
+/* How long the atom at `at` is, which ends before `end`; 0 where there is none, or a
+ * terminator. */
 static size_t atom_bytes(const atoms *a, size_t at, size_t end) {
     size_t bytes = end - at < 8 ? 0 : wf_big_endian(a->from + at, 4);
     return bytes < 8 || bytes > end - at ? 0 : bytes;
 }
 
-/* The first entry of a video's sample description: what describes the codec, and then the
- * picture. */
+/* Copies the first entry of a video's sample description: the atoms that describe the codec,
+ * then those of weft that describe the picture. */
 static void copy_entry(atoms *a, size_t at, size_t end) {
     size_t start = a->used, bytes;
     copy(a, at, ENTRY_BYTES);
@@ -137,7 +138,7 @@ static void copy_descriptions(atoms *a, size_t at, size_t end) {
     copy(a, entry + bytes, end - entry - bytes);
 }
 
-/* The clean aperture's size as it is shown: 16.16 fixed point. */
+/* Writes the size at which the clean aperture is shown, as 16.16 fixed point numbers. */
 static void put_shown(uint8_t *clef, const wf_raster *r) {
     uint32_t width, lines;
     wf_clean_aperture(r, &width, &lines);
@@ -159,7 +160,8 @@ static bool is_container(const uint8_t *atom) {
     return false;
 }
 
-/* Six levels of containers that hold each other in this order alone. */
+/* Copies an atom and what it holds. It calls itself at most six deep, for moov, trak, mdia,
+ * minf and stbl (or tapt) hold each other in this order only. */
 static void copy_atom(atoms *a, size_t at, size_t end) {
     size_t start = a->used, bytes;
     const uint8_t *atom = a->from + at;
@@ -186,7 +188,7 @@ static weft_status malformed(weft_error *err) {
                    "formed");
 }
 
-/* Where the movie atom begins and ends: it is the last of the file. */
+/* Finds the movie atom, which is the last of the file. */
 static weft_status find_movie(wf_outfile *file, int64_t *at, int64_t *bytes, weft_error *err) {
     for (*at = 0;; *at += *bytes) {
         uint8_t head[16];

@@ -34,7 +34,7 @@ static bool read_at(const exam *x, uint64_t offset, void *to, size_t bytes) {
 #define PNG_SIGNATURE_BYTES 8
 #define PNG_FRAME_BYTES     12 /* of a chunk, around its data */
 
-/* The sum over `bytes` bytes, of which the file has enough. */
+/* Continues the checksum over the next `bytes` bytes, which the file has. */
 static bool sum_data(const exam *x, uint32_t *sum, uint64_t bytes) {
     uint8_t block[16384];
     while (bytes) {
@@ -46,7 +46,8 @@ static bool sum_data(const exam *x, uint32_t *sum, uint64_t bytes) {
     return true;
 }
 
-/* The decoder stops at the last line and so never sees the end of the data, nor its sum. */
+/* The decoder stops at the last line, and so sees neither the end of the data nor its
+ * checksum. */
 static weft_status examine_png(const exam *x) {
     for (uint64_t at = PNG_SIGNATURE_BYTES;;) {
         uint8_t head[8], tail[4];
@@ -67,7 +68,8 @@ static weft_status examine_png(const exam *x) {
 
 /* ---- JPEG ---- */
 
-/* Decoders fill what is missing with gray. Some writers pad behind the end-of-image marker. */
+/* Decoders fill missing data with gray. The marker is searched for in the last bytes, since
+ * some writers pad behind it. */
 static weft_status examine_jpeg(const exam *x) {
     uint8_t tail[1024];
     size_t bytes = x->bytes < sizeof tail ? (size_t)x->bytes : sizeof tail;
@@ -94,7 +96,8 @@ static uint32_t dpx_word(const uint8_t *header, size_t offset) {
     return little ? __builtin_bswap32(word) : word;
 }
 
-/* The least that one element's samples take: as if they were packed without a gap. */
+/* The least number of bytes that the samples of one element can take, which is when they are
+ * packed without gaps. */
 static uint64_t dpx_element_bytes(const uint8_t *header, const uint8_t *element) {
     static const struct {
         uint8_t descriptor, components;
@@ -106,7 +109,7 @@ static uint64_t dpx_element_bytes(const uint8_t *header, const uint8_t *element)
     return pixels > UINT64_MAX / 1024 ? UINT64_MAX : pixels * components * element[23] / 8;
 }
 
-/* The reader takes memory for as much user data as the header metadata. */
+/* OpenImageIO allocates as much user data as the header states, so that is checked too. */
 static weft_status examine_dpx(const exam *x) {
     uint8_t header[DPX_HEADER_BYTES];
     if (!read_at(x, 0, header, sizeof header)) return damaged(x, "its header is not whole");

@@ -28,7 +28,7 @@ bool wf_klv_is_picture(int kind) {
     return kind == 0x27 || kind == 0x28 || kind == 0x29 || kind == 0x51;
 }
 
-/* Of either version of the registry, which byte 7 says. */
+/* Byte 7 of the key is the version of the registry, and either is a fill item. */
 bool wf_klv_is_fill(const uint8_t key[WF_KLV_KEY_BYTES]) {
     static const uint8_t begins[] = {0x06, 0x0e, 0x2b, 0x34, 0x01, 0x01, 0x01},
                          ends[] = {0x03, 0x01, 0x02, 0x10, 0x01, 0x00, 0x00, 0x00};

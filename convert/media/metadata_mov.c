@@ -14,7 +14,7 @@ typedef struct atom {
     int64_t body, next;
 } atom;
 
-/* False at the end of the parent, and where there is no atom. */
+/* False at the end of the parent, and where what stands there is no atom. */
 static bool next_atom(FILE *file, int64_t at, int64_t end, atom *out) {
     uint8_t head[16];
     if (end - at < 8 || fseeko(file, (off_t)at, SEEK_SET) || fread(head, 8, 1, file) != 1)
@@ -64,7 +64,8 @@ static void read_extensions(FILE *file, int64_t at, int64_t end, wf_metadata *me
     }
 }
 
-/* The description of timecode: flags, time scale, length of a frame, labels a second. */
+/* Reads the description of a timecode track: flags, time scale, length of a frame, labels a
+ * second. */
 static void read_timecode(FILE *file, const atom *entry, wf_metadata *metadata) {
     uint8_t value[13];
     if (!is(entry, "tmcd") || entry->next - entry->body < TIMECODE_AT + (int)sizeof value ||

@@ -1,4 +1,4 @@
-/* MXF's descriptors (SMPTE ST 377-1): what libavformat reads past. */
+/* Reads the descriptors of MXF (SMPTE ST 377-1) for what libavformat does not hand out. */
 #include <string.h>
 
 #include "convert/base/big_endian.h"
@@ -29,7 +29,7 @@ static void read_picture(const uint8_t *set, size_t bytes, wf_metadata *metadata
                                     (int64_t)wf_big_endian(set + at + 4, 4));
 }
 
-/* The first is the material package's, which is what plays. */
+/* The first timecode component is the material package's, which is the one that plays. */
 static void read_timecode(const uint8_t *set, size_t bytes, wf_metadata *metadata) {
     size_t length, at = wf_klv_item(set, bytes, WF_MXF_BASE, &length);
     if (length != 2 || metadata->timecode_base) return;

@@ -5,7 +5,7 @@
 
 #include "convert/media/metadata.h"
 
-/* Adds what a MXF file says in places that libavformat keeps to itself. What is not well
+/* Adds what an MXF file says in places that libavformat keeps to itself. What is not well
  * formed ends the reading of it; nothing is read beyond the file. */
 void wf_metadata_mxf(FILE *file, wf_metadata *metadata);
 

@@ -3,8 +3,8 @@
 
 #include "convert/media/metadata.h"
 
-/* Asks the container: through the libav module, and the parts of MOV and MXF that libav keeps
- * to itself by own readers. Y4M, raw files and pictures are not asked: WEFT_USAGE. */
+/* Asks a container what it says: through the libav module, and in MOV and MXF also our own
+ * readers, for what libav keeps to itself. */
 weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err);
 
 #endif

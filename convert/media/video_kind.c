@@ -1,4 +1,4 @@
-/* What every kind of video does alike. */
+/* What all kinds of video share: turning codes into signals, and running out of memory. */
 #include "convert/media/video_kind.h"
 
 #include "color/codes/levels.h"

@@ -15,7 +15,7 @@ typedef struct wf_chunk {
     size_t at; /* of its packed bytes, in the buffer that they were read into */
 } wf_chunk;
 
-/* What one thread decodes chunks with. */
+/* Buffers that one thread decodes chunks with. */
 typedef struct wf_chunk_decoder {
     const wf_unzip_ops *ops;
     struct libdeflate_decompressor *inflate;

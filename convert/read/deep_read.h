@@ -14,7 +14,7 @@ typedef struct wf_deep_file wf_deep_file; /* open; immutable, any threads */
 weft_status wf_deep_open(const char *path, const wf_raster *raster, wf_deep_file **out,
                          weft_error *err);
 void wf_deep_close(wf_deep_file *file);
-/* The windows it covers: its lines first <= y < end and whether it names another raster. */
+/* The raster and the color space that the file names. They live as long as the file. */
 const char *wf_deep_raster(const wf_deep_file *file); /* weft:raster; "" if it has none */
 const char *wf_deep_space(const wf_deep_file *file);  /* weft:colorSpace; "" */
 

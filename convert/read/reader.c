@@ -81,7 +81,8 @@ static weft_status read_chunk(wf_packed *p, const wf_subframe *s, int x, int y,
     return WEFT_OK;
 }
 
-/* Room for the chunks of lines first <= y < end, at most as big as their samples. */
+/* Makes *packed large enough for the chunks of lines first <= y < end, which are at most as
+ * big as their samples. */
 static bool reserve_packed(wf_packed *p, const wf_subframe *s, int first, int end) {
     const wf_exr_layout *l = &s->layout;
     size_t width = (size_t)(l->data.x1 - l->data.x0);
@@ -99,7 +100,7 @@ static bool reserve_packed(wf_packed *p, const wf_subframe *s, int first, int en
     return wf_reserve(&p->bytes, &p->capacity, width * (size_t)(end - first) * l->pixel_bytes);
 }
 
-/* The line where the chunk that holds y begins. */
+/* The first line of the chunk that holds y. */
 static int chunk_top(const wf_exr_layout *l, int y) {
     return l->data.y0 + (y - l->data.y0) / l->chunk_lines * l->chunk_lines;
 }
@@ -129,7 +130,8 @@ static bool same_layout(const wf_exr_layout *a, const wf_exr_layout *b) {
            a->pixel_bytes == b->pixel_bytes && a->channel_hash == b->channel_hash;
 }
 
-/* Whether the result stands for these rows of a picture of this layout. */
+/* Whether the result that is held is of these rows and of a picture laid out like s, so that
+ * chunks can be compared. */
 static bool comparable(const wf_reader *r, const wf_subframe *s, int y0, int y1) {
     return r->held && s->exr && r->rows.y0 == y0 && r->rows.y1 == y1 &&
            same_layout(&r->layout, &s->layout);
@@ -143,7 +145,7 @@ static bool same_chunk(const wf_packed *a, const wf_packed *b, int i) {
 
 /* ---- Decoding ---- */
 
-/* Lines of a tile into the lines of the picture, channel by channel. */
+/* Copies the lines of a decoded tile to their places in the picture, channel by channel. */
 static void spread_tile(wf_reader *r, const wf_subframe *s, const wf_chunk *chunk) {
     const exr_attr_chlist_t *list = NULL;
     exr_get_channels(s->exr, s->part, &list);
@@ -186,7 +188,8 @@ static bool all_half(const wf_exr_layout *l, const wf_subframe *s) {
     return l->pixel_bytes == 2 * (size_t)list->num_channels;
 }
 
-/* Decodes what was read ahead, but for chunks that the result already holds. *changed: any. */
+/* Decodes what was read ahead, except the chunks that the result already holds. *changed:
+ * any was decoded. */
 static weft_status decode_ahead(wf_reader *r, const wf_subframe *s, int y0, int y1,
                                 bool *changed, weft_error *err) {
     const wf_exr_layout *l = &s->layout;
@@ -222,7 +225,7 @@ static size_t plane_samples(const wf_rows *rows) {
     return (size_t)(rows->x1 - rows->x0) * (size_t)(rows->y1 - rows->y0);
 }
 
-/* Points rows at floats [channels][lines][width]. */
+/* Has rows point at planes of floats, [channels][lines][width]. */
 static void point_at(wf_rows *rows, const float *planes) {
     for (int c = 0; c < rows->channels; c++)
         rows->plane[c] = planes + (size_t)c * plane_samples(rows);
@@ -230,8 +233,8 @@ static void point_at(wf_rows *rows, const float *planes) {
     rows->line_stride = (size_t)(rows->x1 - rows->x0);
 }
 
-/* Samples of a kind that lies in the lines as it must in memory are handed out where they are.
- */
+/* Whether all channels are of this type and lie aligned for it, so that rows can be handed
+ * out where they were decoded. */
 static bool lies_well(const wf_exr_layout *l, exr_pixel_type_t type, size_t width) {
     size_t bytes = type == EXR_PIXEL_HALF ? 2 : 4;
     bool well = width * l->pixel_bytes % bytes == 0;
@@ -324,7 +327,8 @@ static bool any_not_finite(const wf_reader *r, const wf_rows *rows) {
     return false;
 }
 
-/* One row beyond those that are fixed, copied to `to`; none where the picture ends. */
+/* Reads row y, beyond those that are fixed, into `to`; *edge is empty where the picture
+ * ends. */
 static weft_status edge_row(wf_reader *r, const wf_subframe *s, int y, wf_rows *edge, float *to,
                             weft_error *err) {
     *edge = (wf_rows){.y0 = y, .y1 = y};
@@ -365,7 +369,8 @@ static weft_status refuse_not_finite(const wf_subframe *s, const wf_rows *rows,
         s->path, x - s->info.display.x0, y - s->info.display.y0);
 }
 
-/* Replaces what is not finite; the rows as decoded stay what later chunks are compared with. */
+/* Replaces what is not finite in a copy, so that later chunks are still compared with the
+ * rows as decoded. */
 static weft_status fix_nan(wf_reader *r, const wf_subframe *s, weft_error *err) {
     wf_nan_fixer fixer = {.rows = r->rows, .how = r->options.nan_fix};
     if (fixer.how == WF_NAN_ERROR) return refuse_not_finite(s, &r->rows, err);
@@ -378,7 +383,7 @@ static weft_status fix_nan(wf_reader *r, const wf_subframe *s, weft_error *err) 
         return no_memory(s, err);
     r->fixed = wf_nan_fix_rows(&fixer, out);
     point_at(&r->rows, out);
-    free(r->plain); /* only now: the rows may have been in it */
+    free(r->plain); /* not earlier: the rows that were read may lie in it */
     r->plain = out;
     r->plain_capacity = capacity;
     return WEFT_OK;

@@ -3,7 +3,7 @@
 
 #include "convert/read/chunk.h"
 
-/* Inside the source: one thread's buffers, and what they hold. */
+/* A reader: the buffers of one thread, and what they hold. */
 
 /* Chunks that were read and not decoded, one after the other. */
 typedef struct wf_packed {

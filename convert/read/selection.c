@@ -31,7 +31,7 @@ typedef struct selection {
 
 static wf_rational selected(const selection *s, size_t k) {
     if (s->listed) return s->listed[k];
-    /* It fits: the last one is the number of a file. */
+    /* This does not overflow, since the last of them is the number of a file. */
     return wf_number_minus(s->first, wf_ratio_mul(s->step, (wf_rational){-(int64_t)k, 1}));
 }
 
@@ -86,7 +86,7 @@ static char *join(const char *directory, const char *name) {
     return path;
 }
 
-/* Both are in ascending order: one walk along them. */
+/* Numbers and files are both in ascending order, so that one walk along them is enough. */
 static bool fill(const wf_candidates *from, const selection *numbers, wf_sequence *out) {
     const wf_numbered *at = from->entry, *end = at + from->count;
     for (size_t k = 0; k < numbers->count; k++) {
@@ -120,8 +120,8 @@ static weft_status list(const wf_candidates *from, const selection *numbers, con
                    wf_number_text(from->entry[from->count - 1].number, b, sizeof b));
 }
 
-/* What the files' own rate is divided by: how many of their own steps one of the selection is.
- */
+/* *step is how many steps of the files one step of the selection is: the rate that files
+ * state is divided by it. */
 static weft_status settle_step(wf_rational selected_step, wf_rational natural,
                                const char *frames, wf_rational *step, weft_error *err) {
     *step = wf_ratio(1, 1);

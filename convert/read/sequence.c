@@ -1,5 +1,5 @@
-/* From what was typed to the files: patterns, directories, lists, and one file with many parts.
- */
+/* Turns what was typed into files: patterns, directories, lists, and one file with many
+ * parts. */
 #include "convert/read/sequence.h"
 
 #include <errno.h>
@@ -154,7 +154,7 @@ static weft_status expand_pattern(const char *text, const wf_pattern *pattern,
 
 /* ---- A directory ---- */
 
-/* How much of the range of its numbers a group fills; 0 for a file alone. */
+/* Which share of the numbers in its range a group has; 0 for a file alone. */
 static double density(const wf_numbered *entry, size_t count) {
     wf_rational step = wf_natural_step(entry, count);
     if (count < 2 || !wf_ratio_given(step)) return 0;
@@ -162,7 +162,8 @@ static double density(const wf_numbered *entry, size_t count) {
     return (double)count / (double)numbers;
 }
 
-/* The only group of more than one file; its entries first .. end - 1. */
+/* Finds the only group of more than one file, entries *first .. *end - 1; false if there are
+ * several or none. */
 static bool only_group(const wf_numbered_list *list, size_t *first, size_t *end) {
     int found = 0;
     for (size_t i = 0, next; i < list->count; i = next) {
@@ -190,8 +191,8 @@ static const char *only_picture(const wf_names *names) {
     return found;
 }
 
-/* A directory has one reading or the other: "shot.1001.25.exr" is a sub-frame where that makes
- * one sequence with fewer gaps, and picture 25 of scene 1001 elsewhere. */
+/* A directory is read one way or the other: in "shot.1001.25.exr" 25 is a sub-frame of 1001
+ * where that makes one sequence with fewer gaps, and elsewhere picture 25 of scene 1001. */
 static weft_status read_groups(const wf_names *names, wf_numbered_list *out, weft_error *err) {
     wf_numbered_list fractions = {0};
     weft_status status = wf_names_group(names, false, out, err);
@@ -284,8 +285,8 @@ static weft_status check_list(char *const *inputs, size_t count, weft_error *err
     return status;
 }
 
-/* Reads the numbers of a list that is one sequence in its order; how much of its range it
- * fills, or 0 if it is none. */
+/* Numbers a list that is one sequence in ascending order. Returns which share of its range
+ * it has, or 0 if it is no such sequence. */
 static double number_list(char *const *inputs, size_t count, bool subframes,
                           wf_numbered *entry) {
     size_t directory = (size_t)(wf_base_name(inputs[0]) - inputs[0]);
@@ -341,7 +342,7 @@ static weft_status refuse_absent(const char *input, int code, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: %s%s", wf_path_tail(input), strerror(code), there);
 }
 
-/* A file that is there is itself, whatever signs its name holds. */
+/* A file that exists is taken as it is, whatever signs its name holds. */
 static weft_status classify(const char *input, input_kind *kind, wf_pattern *pattern,
                             weft_error *err) {
     struct stat about;

@@ -108,8 +108,8 @@ void wf_signal_free(wf_signal *signal) {
 
 /* ---- Chroma back to every pixel ---- */
 
-/* The chroma line that lies with luma line y. Where lines are halved as well, those of one
- * field go with the lines of the same field. */
+/* The chroma line that goes with luma line y. Where there are half as many, the chroma lines
+ * of a field go with the lines of that field. */
 int wf_signal_chroma_line(const wf_signal *s, int y) {
     if (s->down == 1) return y;
     if (!s->fields) return y / s->down;
@@ -152,7 +152,8 @@ static void linear_light(const wf_video_frame *f, size_t at, size_t width, float
             0.2126f * f->plane[0][i] + 0.7152f * f->plane[1][i] + 0.0722f * f->plane[2][i];
 }
 
-/* One line of scene-linear light to the planes of `encoded`, by way of codes. */
+/* Encodes one line of scene-linear light to codes and decodes them to the planes of
+ * `encoded`. */
 static void encode_line(wf_signals *s, const wf_video_frame *frame, int y) {
     size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
     float *rgb[3] = {s->line, s->line + width, s->line + 2 * width};
@@ -167,7 +168,7 @@ static void encode_line(wf_signals *s, const wf_video_frame *frame, int y) {
     }
 }
 
-/* What is coded, as Y'CbCr for every pixel of a line. */
+/* Turns a line of what is coded into Y'CbCr for every pixel. */
 static void take_coded(const wf_signals *s, const wf_signal *signal, int y) {
     size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
     memcpy(signal->ycbcr[0] + at, signal->coded.plane[0] + at, width * sizeof(float));

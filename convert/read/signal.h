@@ -25,11 +25,12 @@ int wf_signal_chroma_line(const wf_signal *signal, int y);
 
 typedef struct wf_signals wf_signals; /* what makes them; one thread at a time */
 
-/* For video of this kind. The linear light of EXR is scene-linear Rec. 709. */
+/* Makes signals of video as info describes it. The linear light of EXR is scene-linear Rec.
+ * 709. */
 weft_status wf_signals_new(const wf_video_info *info, wf_signals **out, weft_error *err);
 void wf_signals_free(wf_signals *signals); /* NULL is fine */
 
-/* A signal's planes, for wf_signals_take to fill. */
+/* Allocates the planes of a signal, for wf_signals_take to fill. */
 weft_status wf_signal_new(const wf_signals *signals, wf_signal **out, weft_error *err);
 void wf_signal_free(wf_signal *signal); /* NULL is fine */
 

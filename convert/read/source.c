@@ -1,4 +1,4 @@
-/* Opening subframes: EXR by chunks, everything else whole through the OpenImageIO module. */
+/* Opens subframes: EXR by chunks, everything else whole through the OpenImageIO module. */
 #include "convert/read/source.h"
 
 #include <errno.h>
@@ -56,7 +56,7 @@ static weft_status pick_from_names(const wf_subframe *s, const wf_source_options
     return found ? WEFT_OK : wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
-/* Channels in the module's order, which is not the file's. */
+/* Asks the module what the picture is. Its order of channels is not the file's. */
 static weft_status probe(const wf_subframe *s, const wf_source_options *o, wf_image_info *info,
                          wf_pick *pick, weft_error *err) {
     void *symbol;
@@ -87,8 +87,8 @@ static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int pa
 
 /* ---- Opening ---- */
 
-/* What the header says stands; only the pixels of an EXR that cannot be decoded here are read
- * by the module. */
+/* Opens an EXR. If its pixels cannot be decoded here, the module reads them; what the header
+ * says stays. */
 static weft_status open_exr(wf_subframe *s, const wf_source_options *o, int part,
                             weft_error *err) {
     bool needs_module;

@@ -1,4 +1,5 @@
-/* Opening EXR files: everything that can be known and checked without decoding a pixel. */
+/* Opens EXR files: finds out and checks everything that can be known without decoding a
+ * pixel. */
 #include "convert/read/source_exr.h"
 
 #include <inttypes.h>
@@ -73,7 +74,7 @@ static weft_status refuse_part(const wf_subframe *s, const char *wanted, int par
                    list);
 }
 
-/* The part --part names, by its name or its number. */
+/* Finds the part that --part names, by its name or its number. */
 static weft_status named_part(const wf_subframe *s, const char *wanted, int parts, int *part,
                               weft_error *err) {
     char *end;
@@ -86,8 +87,8 @@ static weft_status named_part(const wf_subframe *s, const char *wanted, int part
     return refuse_part(s, wanted, parts, err);
 }
 
-/* The first part with the picture asked for. Parts may be layers: one called like the layer is
- * taken with its own R G B. */
+/* Takes the first part that has the picture asked for. Parts may be layers: one that is
+ * called like the layer is taken with its own R G B. */
 static weft_status search_parts(wf_subframe *s, const wf_source_options *o, int parts,
                                 wf_pick *pick, weft_error *err) {
     char why[512] = "no flat picture, only deep ones";
@@ -211,8 +212,8 @@ static weft_status read_windows(wf_subframe *s, weft_error *err) {
     return WEFT_OK;
 }
 
-/* Before anything is allocated: what the header promises must fit into the file, and what one
- * band takes into memory. Deflate cannot shrink bytes more than 1032 times. */
+/* Checks, before anything is allocated, that what the header promises fits into the file and
+ * that one row of chunks fits into memory. Deflate cannot shrink bytes more than 1032 times. */
 static weft_status check_sizes(const wf_subframe *s, const wf_source_options *o,
                                weft_error *err) {
     const wf_exr_layout *l = &s->layout;
@@ -324,8 +325,8 @@ static void read_attributes(wf_subframe *s) {
 
 /* ---- Opening ---- */
 
-/* OpenEXRCore tells in words what is wrong with a header; of chunks, which many threads read,
- * only the status counts. */
+/* Keeps what OpenEXRCore says of a header. What it says of chunks is dropped, since many
+ * threads read them and their status is enough. */
 static void listen(exr_const_context_t exr, exr_result_t code, const char *message) {
     void *user = NULL;
     (void)code;

@@ -26,7 +26,8 @@ static bool fits(const wf_raster *r, const wf_video_info *info, const wf_video_l
            (!label->scan_known || as_labelled);
 }
 
-/* Progressive frames of the standard definition rasters have no name of their own. */
+/* Whether progressive frames have the size and rate of an interlaced raster: those of
+ * standard definition have no name of their own. */
 static bool fits_whole(const wf_raster *r, const wf_video_info *info,
                        const wf_video_label *label) {
     wf_video_label as_fields = *label;
@@ -51,7 +52,8 @@ static void make_raster(wf_video_info *info, const wf_video_label *label) {
              info->raster.scan == WF_PROGRESSIVE ? "p" : "i");
 }
 
-/* The raster's 16:9 sister where the pixels say so, else the raster with these pixels. */
+/* Takes the 16:9 variant of the raster where the pixels have that shape, else the raster
+ * with these pixels. */
 static void take_aspect(wf_raster *raster, wf_rational aspect) {
     char name[sizeof raster->name + sizeof "-wide"], why[256];
     wf_raster wide;
@@ -122,7 +124,7 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
     struct stat about;
     bool there = !stat(path, &about);
     *kind = &wf_video_libav;
-    /* What cannot be read twice is not looked into. */
+    /* Pipes are not looked into, since they cannot be read twice: they are taken for Y4M. */
     if (!strcmp(path, "-") || (there && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)))
         *kind = &wf_video_y4m;
     else if (there ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
@@ -141,7 +143,7 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
     return WEFT_OK;
 }
 
-/* Those who measure keep twelve floats a pixel, more or less. */
+/* Measuring takes about twelve floats a pixel. */
 static weft_status check_memory(const wf_video *v, weft_error *err) {
     double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
     if (bytes <= (double)v->options.max_memory_bytes) return WEFT_OK;

@@ -1,11 +1,11 @@
-/* Video of any container, through the libav module. */
+/* Hands video of any container to the libav module. */
 #include <string.h>
 
 #include "convert/base/module.h"
 #include "convert/media/libav/libav.h"
 #include "convert/read/video_kinds.h"
 
-/* From here on the video is the module's. */
+/* The module's kind replaces this one, and has the video from here on. */
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
     void *symbol;
     wf_libav_kind_fn *kind;

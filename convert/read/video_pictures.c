@@ -1,4 +1,4 @@
-/* Pictures and sequences of them as video: a frame a file. */
+/* Reads pictures and sequences of them as video, a frame a file. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,7 +69,7 @@ static void pictures_close(wf_video *v) {
     free(p);
 }
 
-/* Rows of the data window that the picture shows. */
+/* Copies the rows of the data window that lie within the display window. */
 static void take_rows(wf_video *v, const wf_image_info *info, const wf_rows *rows) {
     int left = rows->x0 > info->display.x0 ? rows->x0 : info->display.x0;
     int right = rows->x1 < info->display.x1 ? rows->x1 : info->display.x1;

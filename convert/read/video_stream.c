@@ -1,4 +1,4 @@
-/* Streams of frames read back: Y4M, and raw v210 and uyvy. */
+/* Reads streams of frames back: Y4M, and raw v210 and uyvy. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 typedef struct stream stream;
 
-/* Codes of a packed line to one array a plane. */
+/* Unpacks a line into one array of codes a plane. */
 typedef void unpack_fn(const uint8_t *packed, int width_px, uint16_t *const code[3]);
 
 struct stream {
@@ -35,7 +35,7 @@ static weft_status open_file(wf_video *v, weft_error *err) {
     return s->file ? WEFT_OK : failed(v, err);
 }
 
-/* Memory for a frame's bytes and a line's codes. */
+/* Allocates the bytes of a frame and the codes of a line. */
 static weft_status make_buffers(wf_video *v, weft_error *err) {
     stream *s = v->state;
     size_t width = (size_t)v->info.width_px + 6; /* a whole group of v210 at the end */
@@ -117,7 +117,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     return make_buffers(v, err);
 }
 
-/* Lines of a plane: one or two bytes a code. */
+/* Takes the lines of a plane, whose codes have one or two bytes, and returns where it ends. */
 static const uint8_t *take_plane(wf_video *v, int p, const uint8_t *from) {
     stream *s = v->state;
     int width = v->frame.width_px[p];

@@ -9,8 +9,8 @@
 
 #include "convert/base/outplace.h"
 
-/* OpenEXRCore puts the file together; it says nothing of writes that fail, which are therefore
- * noted here. */
+/* OpenEXRCore puts the file together. It does not report writes that fail, so they are noted
+ * here. */
 struct wf_deep_writer {
     wf_outplace place;
     int fd;
@@ -28,8 +28,8 @@ static const struct {
 
 /* ---- Lines ---- */
 
-/* Bytes as OpenEXR's ZIPS wants them: even ones first, then odd ones, each the difference from
- * the one before. */
+/* Orders bytes as ZIPS wants them before deflation: first the even ones, then the odd ones,
+ * each as the difference from the one before. */
 static void split(const uint8_t *from, size_t count, uint8_t *to) {
     uint8_t *half[2] = {to, to + (count + 1) / 2};
     for (size_t i = 0; i < count; i++) *half[i % 2]++ = from[i];
@@ -41,7 +41,7 @@ static void split(const uint8_t *from, size_t count, uint8_t *to) {
     }
 }
 
-/* What does not get smaller is stored as it is. */
+/* A block that does not get smaller is stored as it is. */
 static bool deflate(struct libdeflate_compressor *how, uint8_t *raw, size_t count,
                     uint8_t **out, size_t *out_bytes) {
     uint8_t *merged = malloc(count + 1), *packed = malloc(count + 1);
@@ -68,7 +68,8 @@ weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *ou
     struct libdeflate_compressor *how = libdeflate_alloc_compressor(1);
     uint8_t *raw = malloc(WRITTEN * each + 1);
     bool good = how && raw;
-    /* Each channel of a pixel follows the one before; pixels' samples stand together. */
+    /* Lays the samples out as they are stored: all of a line's for one channel, then for the
+     * next. */
     uint8_t *to = raw;
     for (size_t c = 0; good && c < WRITTEN; c++, to += each)
         memcpy(to, line->channel[written[c].channel], each);

@@ -21,7 +21,7 @@ weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
 weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *out,
                          weft_error *err);
 void wf_deep_packed_free(wf_deep_packed *packed);
-/* Lines from the top, each once. */
+/* Writes line y; lines come from the top, each once. */
 weft_status wf_deep_write(wf_deep_writer *writer, int y, const wf_deep_packed *line,
                           weft_error *err);
 weft_status wf_deep_commit(wf_deep_writer *writer, weft_error *err); /* frees it in any case */

@@ -18,7 +18,8 @@ uint32_t wf_mxf_sound_number(int tracks, int track) {
     return 0x16000100 | (uint32_t)tracks << 16 | (uint32_t)(track + 1);
 }
 
-/* The sets there is one of, and where the numbers of the others begin. */
+/* Numbers that identifiers are made of: sets that a file has one of, then where those of the
+ * others begin. */
 enum {
     PREFACE,
     IDENTIFICATION,
@@ -31,7 +32,7 @@ enum {
     INDEX = WF_MXF_INDEX_UID,
     PACKAGE_IDS = 16,
     DESCRIPTORS = 100,
-    TRACKS = 1000, /* and for each package, and in it for each track, so many more: */
+    TRACKS = 1000, /* each package has A_PACKAGE of these, and in it each track A_TRACK */
     A_PACKAGE = 1000,
     A_TRACK = 3
 };
@@ -84,7 +85,7 @@ static size_t begin_set(const writer *w, uint8_t kind, int n) {
     return begun;
 }
 
-/* "Unknown": what the clock says would make every run's bytes others. */
+/* The date "unknown": with the time of day no two runs would write the same bytes. */
 static void item_date(const writer *w, uint16_t tag) {
     wf_item_number(w->b, tag, 8, 0);
 }
@@ -165,7 +166,8 @@ static void put_timecode(const writer *w, int package) {
     wf_klv_end(w->b, begun);
 }
 
-/* The material package's clips are the file package's tracks; those come from nowhere. */
+/* The clips of the material package play the tracks of the file package, whose own clips
+ * have no source. */
 static void put_clip(const writer *w, int package, int track) {
     static const uint8_t nowhere[32];
     size_t begun = begin_set(w, 0x11, track_uid(package, track, COMPONENT));

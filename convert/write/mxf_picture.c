@@ -1,4 +1,4 @@
-/* How uncompressed pictures are described in MXF: labels and items as data. */
+/* Describes uncompressed pictures in MXF: labels and items, as data. */
 #include "convert/job/colors.h"
 #include "convert/write/mxf_parts.h"
 
@@ -11,8 +11,8 @@
 /* ST 384's label of pictures whose lines and rate the descriptor says. */
 static const wf_ul any_raster = UNCOMPRESSED(0x7f01);
 
-/* ST 384, frame wrapped: rasters that have a label of their own. Those of 525 and 625 lines are
- * told by their line maps, the others by their size. */
+/* Rasters that have a label of their own in ST 384, frame wrapped. Those of 525 and 625
+ * lines are recognized by their line maps, the others by their size. */
 static const struct {
     int width_px, lines, total_lines;
     wf_scan scan;
@@ -100,8 +100,8 @@ static void put_levels(wf_bytes *b, const wf_mxf_options *o) {
 
 /* ---- Geometry ---- */
 
-/* 720 samples of 525 and 625 lines are more than the 4:3 or 16:9 picture is wide; what is said
- * of such files is the picture's aspect. */
+/* The 720 samples of 525 and 625 lines are wider than the 4:3 or 16:9 picture; files state
+ * the aspect ratio of that picture. */
 static wf_rational aspect_of(const wf_raster *r) {
     wf_rational exact = wf_ratio_mul(wf_ratio(r->width_px, r->lines), r->pixel_aspect);
     bool sd = r->width_px == 720 && (r->total_lines == 525 || r->total_lines == 625);
@@ -109,8 +109,9 @@ static wf_rational aspect_of(const wf_raster *r) {
     return wf_ratio_value(exact) > 1.5 ? wf_ratio(16, 9) : wf_ratio(4, 3);
 }
 
-/* First lines of fields 1 and 2. Rasters without a map get one with an even number of whole
- * lines in a field, as all systems have: readers tell the order by whether the sum is odd. */
+/* First lines of fields 1 and 2. Readers tell the order by whether their sum is odd, so
+ * rasters without a line map get one, with an even number of lines in a field as all systems
+ * have. */
 static void line_map(const wf_raster *r, int out[2]) {
     int field_lines = (r->lines / 2 + 2) / 2 * 2;
     out[0] = r->line1;
@@ -124,19 +125,19 @@ static void line_map(const wf_raster *r, int out[2]) {
     }
 }
 
-/* ITU-R BT.601, SMPTE ST 274, SMPTE ST 296; 0: none of those that have a number. */
+/* The number of the raster's standard in ST 377-1: ITU-R BT.601, SMPTE ST 274, SMPTE ST 296;
+ * 0: another. */
 static unsigned signal_standard(const wf_raster *r) {
     if (r->total_lines == 525 || r->total_lines == 625) return 1;
     if (r->width_px == 1920 && r->lines == 1080) return 4;
     return r->width_px == 1280 && r->lines == 720 ? 5 : 0;
 }
 
-/* Full frame, separate fields. Fields that are woven, as these are, are "mixed fields" by the
- * letter of ST 377-1, which MediaInfo shows as progressive and ffmpeg as unknown. "Separate
- * fields", as ffmpeg itself writes for them, is what readers show as interlaced, and in the
- * right order; none of them takes it to mean that the lines are sorted. Heights are then a
- * field's. Segmented frames are stored whole, and are progressive to all readers: "segmented
- * frame" they would show as interlaced. */
+/* Values of FrameLayout. By the letter of ST 377-1 woven fields are "mixed fields", which
+ * MediaInfo shows as progressive and ffmpeg as unknown. "Separate fields", which ffmpeg
+ * writes for them too, is shown as interlaced and in the right order, and no reader takes it
+ * to mean that the lines are sorted. Heights are then those of a field. Segmented frames are
+ * stored whole and labeled progressive, since "segmented frame" is shown as interlaced. */
 enum { FULL_FRAME = 0, SEPARATE_FIELDS = 1 };
 
 static unsigned frame_layout(const wf_raster *r) {

@@ -1,4 +1,4 @@
-/* The file itself: partitions, edit units, index, random index pack. */
+/* Writes an MXF file: partitions, edit units, index, random index pack. */
 #include "convert/write/mxf.h"
 
 #include <inttypes.h>
@@ -9,7 +9,7 @@
 
 #include "convert/write/mxf_parts.h"
 
-/* What the generic container's elements start at multiples of. */
+/* Elements of the generic container start at multiples of this many bytes. */
 #define GRID_BYTES 512
 
 #define ELEMENT(number)                                                                        \
@@ -36,13 +36,15 @@ static size_t on_grid(size_t bytes) {
     return (bytes + GRID_BYTES - 1) / GRID_BYTES * GRID_BYTES;
 }
 
-/* Samples of frames 0 .. n - 1, to the nearest: 1602, 1601, 1602, 1601, 1602 at 29.97. */
+/* How many samples of sound frames 0 .. n - 1 have, rounded to the nearest: 1602, 1601,
+ * 1602, 1601, 1602 a frame at 29.97. */
 static int64_t samples_before(const wf_mxf *m, int64_t n) {
     wf_rational rate = m->options.raster->frame_rate;
     return (2 * n * WF_MXF_SAMPLE_RATE * rate.den + rate.num) / (2 * rate.num);
 }
 
-/* Elements end in a fill item that makes them all equally long, so there is always one. */
+/* How long an element is: it always ends in a fill item, which makes all elements of a kind
+ * equally long. */
 static size_t element_bytes(size_t value_bytes) {
     const size_t key_and_length = 24;
     return on_grid(key_and_length + value_bytes + WF_KLV_FILL_LEAST);
@@ -95,7 +97,7 @@ static void put_partition(wf_mxf *m, partition_kind kind, size_t index_bytes) {
     wf_klv_fill(b, GRID_BYTES);
 }
 
-/* The identity of the file: what it is asked to be, and its first frame. */
+/* Makes the seed of the file's identifiers, from what it is asked to be and its first frame. */
 static wf_uid seed_of(const wf_mxf_options *o, const void *picture) {
     char text[256];
     wf_uid seed;
@@ -125,8 +127,8 @@ static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err)
     return flush(m, err);
 }
 
-/* Key and length (ST 379 allows 4 to 9 bytes; frames of 2160 lines need more than three) and,
- * after the value, what fills the element up to the bytes that it has. */
+/* Writes the key and the length of an element (ST 379 allows 4 to 9 bytes; frames of 2160
+ * lines need more than three). */
 static void put_element_head(wf_bytes *b, uint32_t number, size_t value_bytes) {
     wf_bytes_ul(b, (wf_ul)ELEMENT(number));
     wf_bytes_number(b, 8, (uint64_t)0x87 << 56 | value_bytes);

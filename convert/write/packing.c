@@ -1,4 +1,4 @@
-/* 4:2:2 frames as the bytes of v210 and uyvy. */
+/* Packs 4:2:2 frames into the bytes of v210 and uyvy. */
 #include "convert/write/packing.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ static void put_six(uint8_t *to, const uint16_t *y, const uint16_t *cb, const ui
     put_word(to + 12, y[4], cr[2], y[5]);
 }
 
-/* The last pixels of a line that six does not divide; what is missing is 0. */
+/* Packs the last pixels of a line whose width six does not divide; the missing codes are 0. */
 static void put_rest(uint8_t *to, const uint16_t *y, const uint16_t *cb, const uint16_t *cr,
                      int count) {
     uint16_t l[6] = {0}, b[3] = {0}, r[3] = {0};

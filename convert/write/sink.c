@@ -18,7 +18,7 @@ static const wf_output *const outputs[] = {
 
 #define OUTPUTS (sizeof outputs / sizeof *outputs)
 
-/* Deliveries go through libavcodec and libavformat, but for uncompressed MXF. */
+/* libavcodec and libavformat write all deliveries but uncompressed MXF. */
 static wf_output delivery_output(const wf_delivery *d) {
     return (wf_output){&d->kind, d->encoder ? &wf_delivery_ops : &wf_mxf_sink_ops};
 }
@@ -35,8 +35,8 @@ static bool is_scheme(const char *ending, size_t length) {
     return ending[length - 1] == ':';
 }
 
-/* One of a kind's endings: "-" is a whole name, "hash:" begins one, "y4m" follows its last dot.
- */
+/* Whether output is called so: "-" is a whole name, "hash:" begins one, "y4m" follows its
+ * last dot. */
 static bool ends_so(const char *output, const char *ending, size_t length) {
     if (is_scheme(ending, length)) return !strncmp(output, ending, length);
     if (ending[0] == '-') return !strcmp(output, "-");
@@ -61,7 +61,7 @@ static const wf_output *find_output(const char *name) {
     return NULL;
 }
 
-/* "out.y4m, out.v210, .., out.####.exr, .., hash:FILE, null:" */
+/* Writes "out.y4m, out.v210, .., out.####.exr, .., hash:FILE, null:". */
 static void list_outputs(char *text, size_t size) {
     size_t used = 0;
     for (size_t i = 0; i < OUTPUTS && used < size; i++) {
@@ -115,6 +115,6 @@ bool wf_output_present(const wf_output_kind *kind, const char *name, int64_t fra
         if (frame < 0 || !wf_pattern_path(name, frame, path, sizeof path)) return false;
         name = path;
     }
-    /* Outputs appear whole or not at all; what is empty is what somebody else has left. */
+    /* Outputs of weft appear whole or not at all, so an empty file is not one of them. */
     return !stat(name, &about) && S_ISREG(about.st_mode) && about.st_size > 0;
 }

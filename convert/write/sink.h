@@ -12,7 +12,7 @@ wf_output wf_output_at(size_t index);
  * {NULL, NULL} with an error that lists what there is. */
 wf_output wf_output_for(const char *name, const char *codec, weft_error *err);
 
-/* What the output says of that, {0} where it does not. */
+/* How many bytes so many frames will take; {0} where the output cannot tell. */
 wf_sink_size wf_output_size(const wf_output *output, const wf_output_options *options,
                             int64_t frames);
 

@@ -1,5 +1,5 @@
-/* Outputs in containers: what is asked for is held against the table of deliveries here, and
- * written by the libav module. */
+/* Outputs in containers. What is asked for is compared with the table of deliveries here;
+ * the libav module writes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,8 +64,9 @@ static void tell(const wf_output_options *o, char *text, size_t size) {
 
 /* ---- Sizes ---- */
 
-/* Of uncompressed frames and of those of a constant rate; 0: others. DNxHD's table of n Mb/s is
- * that of 25 frames, and of 50 where there are 720 lines. */
+/* Bytes of the picture where frames are uncompressed or of constant size; 0: they are not. A
+ * DNxHD table is named by its Mb/s at 25 frames a second, or at 50 where there are 720
+ * lines. */
 static int64_t picture_bytes(const wf_output_options *o, const wf_delivery *d,
                              const wf_delivery_form *form, int64_t frames) {
     if (!strcmp(d->encoder, "v210")) return frames * (int64_t)wf_v210_bytes(o);

@@ -8,7 +8,7 @@
 
 typedef struct wf_sink wf_sink; /* an output that is being written; each kind has its own */
 
-/* How many bytes a run will write, as far as that can be told before. */
+/* How many bytes a run will write, and how exactly that is known before. */
 typedef enum wf_size_known {
     WF_SIZE_UNKNOWN,
     WF_SIZE_EXACT,
@@ -23,9 +23,10 @@ typedef struct wf_sink_size {
 
 /* What drives outputs of some kinds. A sink is driven by one thread at a time. */
 typedef struct wf_sink_ops {
-    /* Whether it takes all of that, before anything is read; NULL: it does. */
+    /* Refuses what it cannot write, before anything is read; NULL: it takes whatever its kind
+     * says. */
     weft_status (*check)(const wf_output_options *options, weft_error *err);
-    /* What it will change without being asked to, for people; "": nothing. NULL: nothing. */
+    /* Says what it will change without being asked to, for people; "", or NULL: nothing. */
     void (*tell)(const wf_output_options *options, char *text, size_t size);
     /* Bytes of `frames` frames; NULL: not known. */
     wf_sink_size (*size)(const wf_output_options *options, int64_t frames);

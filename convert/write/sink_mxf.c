@@ -1,4 +1,4 @@
-/* Uncompressed 4:2:2 in MXF: v210 or UYVY, by the depth. */
+/* Outputs of uncompressed 4:2:2 in MXF: v210 or uyvy, by the depth. */
 #include <stdlib.h>
 
 #include "convert/base/outfile.h"
@@ -35,13 +35,14 @@ static size_t frame_bytes(const wf_output_options *o) {
     return o->bits == 8 ? wf_uyvy_bytes(o) : wf_v210_bytes(o);
 }
 
-/* Frames and sound; keys, headers and the index come to less than a hundredth. */
+/* Counts frames and sound. Keys, headers and the index come to less than a hundredth of
+ * that. */
 static wf_sink_size size(const wf_output_options *o, int64_t frames) {
     return (wf_sink_size){frames * (int64_t)frame_bytes(o) + wf_sound_bytes(o, frames),
                           WF_SIZE_ABOUT};
 }
 
-/* The label of a chunk's first frame: chunks are files of their own. */
+/* The timecode of this run's first frame. */
 static wf_timecode start_of(const wf_output_options *o) {
     wf_timecode label = {0};
     if (o->timecode) wf_parse_timecode(o->timecode, &label);
@@ -60,7 +61,8 @@ static weft_status start(wf_sink *s, weft_error *err) {
         .start = start_of(o),
         .silent_tracks = o->silent_tracks,
     };
-    /* A job to be resumed comes here when what stands at the name is not a whole output. */
+    /* A job that resumes gets here only if what stands at the name is no whole output, which
+     * it may replace. */
     weft_status status = wf_outfile_open(o->output, o->overwrite || o->resume, &s->file, err);
     return status ? status : wf_mxf_open(&options, s->file, &s->mxf, err);
 }

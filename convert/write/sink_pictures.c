@@ -37,16 +37,16 @@ static weft_status check_name(const wf_output_options *o, weft_error *err) {
 
 static weft_status name_file(const wf_output_options *o, int64_t number, char path[PATH_MAX],
                              weft_error *err) {
-    bool fits = wf_pattern_is(o->output)
-                    ? wf_pattern_path(o->output, number, path, PATH_MAX)
-                    : snprintf(path, PATH_MAX, "%s", o->output) < PATH_MAX;
+    bool fits = wf_pattern_is(o->output) ? wf_pattern_path(o->output, number, path, PATH_MAX)
+                                         : snprintf(path, PATH_MAX, "%s", o->output) < PATH_MAX;
     if (fits) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%.500s: the name of number %" PRId64 " is too long; shorten it", o->output,
                    number);
 }
 
-/* An hour's rendering is not to end at a file that was there before. */
+/* Looks for files that would not be replaced before the run begins, so that it does not end
+ * at one of them. */
 static weft_status check_absent(const wf_output_options *o, weft_error *err) {
     char path[PATH_MAX];
     weft_status status = WEFT_OK;
@@ -84,7 +84,7 @@ static weft_status open_pictures(const wf_output_options *options, const char *f
     return WEFT_OK;
 }
 
-/* Errors of the file name it; those of the encoder do not know it. */
+/* Errors of the file name the file; those of the encoder do not. */
 typedef struct encoded {
     wf_outfile *file;
     bool said;
@@ -110,7 +110,7 @@ static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const 
                               weft_error *err) {
     wf_outfile *file;
     weft_error why = {""};
-    /* What a job to be resumed has found there was not a whole picture. */
+    /* A job that resumes writes only where no whole picture was found. */
     bool replace = s->options.overwrite || s->options.resume;
     weft_status status = wf_outfile_open(path, replace, &file, err);
     if (status) return status;
@@ -152,7 +152,7 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
     return picture;
 }
 
-/* Of a frame's picture that of one field: every other line of it. */
+/* Turns the picture of a frame into that of one of its fields: every other line. */
 static void take_field(const wf_sink *s, int n, wf_oiio_picture *p) {
     const wf_raster *raster = s->options.raster;
     int parity = wf_raster_parity(raster, n);
@@ -196,8 +196,9 @@ static void abandon(wf_sink *s) {
 
 /* ---- Sizes ---- */
 
-/* Lines of DPX as OpenImageIO writes them: three codes of 10 bits in a word, 12 bits packed and
- * filled to words, 8 and 16 as they are. Its headers have 8192 bytes. */
+/* Bytes of a line of DPX as OpenImageIO writes it: three codes of 10 bits share a word, 12
+ * bits are packed and the line filled to words, 8 and 16 bits are stored as they are.
+ * Headers have 8192 bytes. */
 static int64_t dpx_line_bytes(const wf_output_options *o) {
     int64_t samples = 3 * (int64_t)o->raster->width_px;
     if (o->bits == 10) return samples / 3 * 4;
@@ -209,7 +210,7 @@ static wf_sink_size dpx_size(const wf_output_options *o, int64_t frames) {
     return (wf_sink_size){frames * (8192 * wf_output_files(o) + lines), WF_SIZE_EXACT};
 }
 
-/* The others compress: no more than the samples and what a header takes. */
+/* The other formats compress: a file takes no more than its samples and a header. */
 static wf_sink_size compressed_size(const wf_output_options *o, int64_t frames) {
     int64_t sample = o->bits == 32 ? 4 : o->bits > 8 ? 2 : 1;
     int64_t picture = 3 * (int64_t)o->raster->width_px * o->raster->lines * sample;

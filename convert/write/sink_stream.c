@@ -1,5 +1,5 @@
-/* Outputs that are one stream of frames: Y4M, raw v210 and uyvy, and two that are for tests:
- * null and hash. Each is a way to pack a frame into bytes. */
+/* Outputs that are one stream of frames: Y4M, raw v210 and uyvy, and two for tests, null and
+ * hash. Each is a way to pack a frame into bytes. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,8 +18,8 @@ typedef struct stream_format {
     size_t (*frame_bytes)(const wf_output_options *options);
     /* Packs the frame into `to`; returns how many bytes of it are to be written. */
     size_t (*pack)(const wf_output_options *options, const wf_frame *frame, uint8_t *to);
-    int64_t
-        line_bytes; /* written a frame, where that is less than packing takes; 0: it is not */
+    int64_t line_bytes; /* of a frame that are written, where these are fewer than packing
+                           takes; 0: they are not */
     const char *prefix; /* of the output's name, before the file's; NULL: none */
     bool silent;        /* nothing is written */
 } stream_format;
@@ -78,7 +78,8 @@ static weft_status open_stream(const wf_output_options *options, const stream_fo
     s->options = *options;
     s->format = format;
     weft_status status = WEFT_OK;
-    /* A job to be resumed comes here when what stands at the name is not a whole output. */
+    /* A job that resumes gets here only if what stands at the name is no whole output, which
+     * it may replace. */
     bool replace = options->overwrite || options->resume;
     if (!format->silent) status = wf_outfile_open(file_of(s), replace, &s->file, err);
     if (!status && !format->silent) status = write_header(s, err);
@@ -178,9 +179,9 @@ static size_t hash_frame_bytes(const wf_output_options *o) {
     return HASH_LINE_BYTES + y4m_frame_bytes(o);
 }
 
-/* One line a frame: its number and the XXH3-128 of its codes in the bytes and the order of Y4M.
- * No line is about the run, so that the parts of one, joined, are what the whole would have
- * been; the hash of the file is the hash of all. */
+/* Writes one line a frame: its number and the XXH3-128 of its codes, in the bytes and the
+ * order of Y4M. No line says anything of the run, so that the files of chunks, joined, are
+ * the file of the whole run. */
 static size_t hash_pack(const wf_output_options *o, const wf_frame *frame, uint8_t *to) {
     uint8_t *codes = to + HASH_LINE_BYTES;
     size_t bytes = y4m_pack(o, frame, codes);

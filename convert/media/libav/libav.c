@@ -1,4 +1,5 @@
-/* The libav module: the first video stream of any file that libavformat and libavcodec read. */
+/* Reads video, for the libav module: the first video stream of any file that libavformat and
+ * libavcodec can read. */
 #include "convert/media/libav/libav.h"
 
 #include <inttypes.h>
@@ -135,7 +136,8 @@ static void label_scan(const reading *r, wf_video_label *label) {
     label->scan_known = !unknown || frame_says;
 }
 
-/* Colors as they are tagged; what is not is the raster's. */
+/* Takes the colors that the stream is tagged with; a stream without tags has those of the
+ * raster. */
 static void label_color(const reading *r, wf_video_label *label) {
     static const struct {
         enum AVColorSpace space;
@@ -192,7 +194,8 @@ static int interval_lines(const reading *r) {
     return f->height == 608 ? 32 : f->height == 512 ? 26 : 0;
 }
 
-/* MXF tells the aspect ratio of the picture, which is not quite that of a line of 601. */
+/* MXF states the aspect ratio of the picture, which is not exactly that of a whole line of
+ * 601. */
 static wf_rational pixel_aspect(const reading *r, int lines) {
     static const struct {
         int lines;
@@ -200,7 +203,7 @@ static wf_rational pixel_aspect(const reading *r, int lines) {
     } rows[] = {
         {480, {10, 11}, {40, 33}}, {486, {10, 11}, {40, 33}}, {576, {12, 11}, {16, 11}}};
     AVStream *stream = r->format->streams[r->stream];
-    /* The container's word counts before the codec's, which may have none. */
+    /* The container's pixel aspect is taken before the codec's, which may state none. */
     wf_rational given = ratio_of(av_guess_sample_aspect_ratio(r->format, stream, r->frame));
     if (strcmp(r->format->iformat->name, "mxf") || r->frame->width != 720) return given;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -241,7 +244,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
 
 /* ---- Reading ---- */
 
-/* Components of RGB and of Y'CbCr formats come in the order of weft's planes. */
+/* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
 static void take_frame(wf_video *v) {
     reading *r = v->state;
     const AVFrame *f = r->frame;
@@ -267,7 +270,7 @@ static weft_status check_frame(const wf_video *v, weft_error *err) {
                    v->info.lines, r->pixels->name);
 }
 
-/* How long the stream says that it is; 0: it does not. Matroska keeps it in a tag. */
+/* How long the stream states to be; 0 if it does not. Matroska keeps that in a tag. */
 static double stated_length_s(const reading *r) {
     const AVStream *stream = r->format->streams[r->stream];
     const AVDictionaryEntry *tag = av_dict_get(stream->metadata, "DURATION", NULL, 0);
@@ -279,7 +282,8 @@ static double stated_length_s(const reading *r) {
                : 0;
 }
 
-/* How many packets the file's index has for the stream; 0 where that means something else. */
+/* How many packets the file's index counts for the stream; 0 where the number means
+ * something else. */
 static int64_t stated_packets(const reading *r) {
     const char *format = r->format->iformat->name;
     const AVStream *stream = r->format->streams[r->stream];
@@ -287,7 +291,8 @@ static int64_t stated_packets(const reading *r) {
     return !strcmp(format, "mxf") && stream->duration > 0 ? stream->duration : 0;
 }
 
-/* libavformat takes a file that was cut for one that has ended. */
+/* libavformat does not tell a file that was cut off from one that has ended, so the length
+ * is compared. */
 static weft_status check_end(const wf_video *v, weft_error *err) {
     const reading *r = v->state;
     int64_t packets = stated_packets(r);

@@ -1,4 +1,4 @@
-/* The libav module: what a container and its streams say. */
+/* Reads what a container and its streams say, for the libav module. */
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
@@ -62,7 +62,7 @@ static void read_timecode(const AVDictionary *tags, wf_metadata *c) {
     if (tag && !*c->timecode) copy(c->timecode, sizeof c->timecode, tag->value);
 }
 
-/* The first frame knows of scans that the container does not tell. */
+/* Decodes the first frame, which states the scan where the container does not. */
 static void read_frame(AVFormatContext *format, int stream, wf_metadata *c) {
     const AVCodecParameters *p = format->streams[stream]->codecpar;
     const AVCodec *decoder = avcodec_find_decoder(p->codec_id);

@@ -1,5 +1,5 @@
-/* The libav module's other half: deliveries, encoded by libavcodec and laid out by libavformat,
- * which is told what the raster is in every place that it looks at: frames, encoder, stream. */
+/* Writes deliveries, for the libav module: libavcodec encodes and libavformat lays out. Both
+ * are told what the raster is in every place that they look at: frames, encoder, stream. */
 #include <inttypes.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/intreadwrite.h>
@@ -76,7 +76,7 @@ static enum AVPixelFormat pixels_of(const wf_output_options *o) {
     return av_get_pix_fmt(name);
 }
 
-/* By the numbers of Rec. ITU-T H.273, which libav's are. */
+/* libav's enums are the code points of Rec. ITU-T H.273. */
 static void tag_codec(const wf_writing *w, AVCodecContext *c) {
     c->color_primaries = (enum AVColorPrimaries)w->tags.primaries;
     c->color_trc = (enum AVColorTransferCharacteristic)w->tags.transfer;
@@ -85,14 +85,15 @@ static void tag_codec(const wf_writing *w, AVCodecContext *c) {
     c->chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
-/* libavformat makes {2,9} of TB and {2,14} of BT in QuickTime: lines of both fields in turn,
- * the first letter's shown first. */
+/* In QuickTime libavformat writes {2,9} for TB and {2,14} for BT: the fields' lines are
+ * stored in turn, and the first letter is the field that is shown first. */
 static enum AVFieldOrder order_of(const wf_raster *raster) {
     if (raster->scan != WF_INTERLACED) return AV_FIELD_PROGRESSIVE;
     return raster->top_first ? AV_FIELD_TB : AV_FIELD_BT;
 }
 
-/* Containers but QuickTime and Matroska know fields of their own, coded together. */
+/* QuickTime and Matroska are told how the lines are stored, TB or BT. MXF is told that both
+ * fields are coded together, TT or BB. */
 static enum AVFieldOrder coded_order_of(const wf_writing *w) {
     enum AVFieldOrder order = order_of(&w->raster);
     bool woven = strcmp(w->delivery->muxer, "mxf") && strcmp(w->delivery->muxer, "mxf_d10");
@@ -130,7 +131,7 @@ static int read_options(const wf_writing *w, AVDictionary **options) {
         code = av_dict_parse_string(options, w->delivery->encoder_options, "=", ":", 0);
     if (code >= 0 && w->form->options)
         code = av_dict_parse_string(options, w->form->options, "=", ":", 0);
-    /* MPEG-2 counts time in its groups of pictures too. */
+    /* MPEG-2 states a timecode in its groups of pictures, beside that of the container. */
     if (code >= 0 && !strcmp(w->delivery->encoder, "mpeg2video"))
         code = av_dict_set(options, "gop_timecode", w->options.timecode, 0);
     return code;
@@ -189,7 +190,7 @@ static weft_status write_header(wf_writing *w, weft_error *err) {
     if (code >= 0) code = av_dict_set(about, "product_version", weft_version(), 0);
     if (code >= 0) code = av_dict_set(about, "encoding_tool", encoder_name(name), 0);
     if (code >= 0) code = avformat_write_header(w->format, &options);
-    /* Which the muxer of QuickTime writes at the end, if it is not there at the beginning. */
+    /* The muxer of QuickTime writes this at the end if it is not set after the header. */
     if (code >= 0) code = av_dict_set(about, "encoder", name, 0);
     av_dict_free(&options);
     return code < 0 ? wf_writing_failed(w, "its header cannot be written", code, err) : WEFT_OK;
@@ -208,7 +209,7 @@ static weft_status make_frame(wf_writing *w, weft_error *err) {
     return code < 0 ? wf_writing_failed(w, "no memory for a frame", code, err) : WEFT_OK;
 }
 
-/* Encoders and containers look at the frame as well: libav 5.1 believes it over the encoder. */
+/* libav 5.1 reads scan and colors from the frame as well, and believes it over the encoder. */
 static void tag_frame(const wf_writing *w) {
     AVFrame *f = w->frame;
     f->interlaced_frame = w->raster.scan == WF_INTERLACED;

@@ -37,7 +37,8 @@ typedef struct wf_writing {
     int64_t frames;
 } wf_writing;
 
-/* An error of libav's, in its words and the file's. */
+/* Reports an error of libav's in its words, or that of the file where the file was what failed.
+ */
 weft_status wf_writing_failed(const wf_writing *w, const char *doing, int code,
                               weft_error *err);
 

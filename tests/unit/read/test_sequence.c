@@ -153,8 +153,7 @@ static void output_names(void **state) {
     };
     for (size_t i = 0; i < LENGTH(cases); i++) {
         char path[64] = "";
-        bool made =
-            wf_pattern_path(cases[i].pattern, cases[i].frame, path, sizeof path);
+        bool made = wf_pattern_path(cases[i].pattern, cases[i].frame, path, sizeof path);
         if (made != (cases[i].path != NULL)) fail_msg("%s gives %s", cases[i].pattern, path);
         if (made) assert_string_equal(path, cases[i].path);
         if (made) assert_true(wf_pattern_is(cases[i].pattern));
@@ -515,7 +514,7 @@ static void lists_of_files(void **state) {
 
 /* ---- Parts ---- */
 
-static float grey(const void *user, int channel, int x, int y) {
+static float gray(const void *user, int channel, int x, int y) {
     (void)user, (void)channel, (void)x, (void)y;
     return 0.5f;
 }
@@ -530,7 +529,7 @@ static void write_parts(const char *const *times, int count) {
                               .type = EXR_PIXEL_HALF,
                               .compression = EXR_COMPRESSION_NONE,
                               .time = times[i],
-                              .value = grey};
+                              .value = gray};
     assert_true(exr_write("p.exr", parts, count));
 }
 
