@@ -135,6 +135,10 @@ includes=$(quoted_includes)
 none "every import is one that the table allows" "$(echo "$includes" | against_the_table)"
 none "an import that goes up is found" \
     "$(echo 'filters/base/isa.c convert/run/run.h' | against_the_table | grep -q 'isa.c includes' || echo 'it is not')"
+none "hot loops begin alike, and are found by WF_ISA_DISPATCH alone" \
+    "$(find "${folders[@]}" -name '*_isa.c' | xargs grep -L '^#include "filters/base/isa_file.h"$'
+        grep -rn -E '# *define WF_ISA\>|_v[134]\>|__builtin_cpu_' "${folders[@]}" --include='*.[ch]' |
+            grep -v -E '^filters/base/isa(_file)?\.[ch]:')"
 none "no folder has more than 40 files" \
     "$(find "${folders[@]}" tests examples -type f ! -path '*/__pycache__/*' ! -path 'examples/*/pictures/*' |
         sed 's#/[^/]*$##' | sort | uniq -c | awk '$1 > 40 {print $2, $1}')"

@@ -11,6 +11,11 @@ typedef struct wf_rational {
     int64_t num, den;
 } wf_rational;
 
+/* floor(a / b), b > 0. */
+static inline int64_t wf_floor_div(int64_t a, int64_t b) {
+    return a / b - (a % b < 0);
+}
+
 /* num/den reduced, den made positive; {0, 0} if den is 0 or the result does not fit. */
 wf_rational wf_ratio(int64_t num, int64_t den);
 

@@ -244,17 +244,13 @@ int wf_raster_fields_per_frame(const wf_raster *raster) {
     return raster->scan == WF_PROGRESSIVE ? 1 : 2;
 }
 
-static int64_t floor_div(int64_t a, int64_t b) {
-    return a / b - (a % b < 0);
-}
-
 int64_t wf_raster_instant(const wf_raster *raster, int64_t field) {
-    if (raster->pulldown) return floor_div(2 * field + 1, 5);
-    return raster->scan == WF_SEGMENTED ? floor_div(field, 2) : field;
+    if (raster->pulldown) return wf_floor_div(2 * field + 1, 5);
+    return raster->scan == WF_SEGMENTED ? wf_floor_div(field, 2) : field;
 }
 
 int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant) {
-    if (raster->pulldown) return floor_div(5 * instant, 2);
+    if (raster->pulldown) return wf_floor_div(5 * instant, 2);
     return raster->scan == WF_SEGMENTED ? 2 * instant : instant;
 }
 

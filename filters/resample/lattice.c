@@ -3,11 +3,6 @@
 
 #include <math.h>
 
-static int64_t floor_div(int64_t a, int64_t b) {
-    int64_t quotient = a / b;
-    return quotient - (a % b < 0 ? 1 : 0);
-}
-
 bool wf_axis_init(wf_axis *axis, const wf_fitting *fitting) {
     /* Keeps every product of a tick count and a number of cells or pixels inside 64 bits. */
     int64_t most = fitting->cells > fitting->pixels ? fitting->cells : fitting->pixels;
@@ -32,8 +27,8 @@ static int64_t center_tick(const wf_axis *axis, int i) {
 wf_span wf_axis_reach(const wf_axis *axis, double reach, int i) {
     int64_t half = (int64_t)lround(2 * reach) * (axis->unit / 2);
     int64_t center = center_tick(axis, i) - axis->origin;
-    return (wf_span){(int)floor_div(center - half, axis->cell),
-                     (int)-floor_div(-(center + half), axis->cell)};
+    return (wf_span){(int)wf_floor_div(center - half, axis->cell),
+                     (int)-wf_floor_div(-(center + half), axis->cell)};
 }
 
 static double from_center(const wf_axis *axis, int64_t tick, int i) {
