@@ -65,7 +65,7 @@ static wf_box draw_corner(wf_canvas *c, const wf_axes *a) {
 
 /* ---- Lines below ---- */
 
-enum { LINE = 19, SAMPLE = 24, BEFORE_NAME = 7, BETWEEN = 20 };
+enum { LINE = 19, SAMPLE = 24, BEFORE_NAME = 7, BETWEEN = 16 };
 
 /* Goes through the names from left to right and line by line; with no canvas it only counts. */
 static int walk_names(wf_canvas *c, const wf_plot *plot, double left, double right,
@@ -98,13 +98,13 @@ double wf_legend_height(const wf_plot *plot) {
     const wf_look *look = wf_look_of(plot);
     if (look->legend != WF_LEGEND_BELOW) return 0;
     int lines = walk_names(NULL, plot, look->left, right_of(plot), 0);
-    return lines ? LINE * lines + 6 : 0;
+    return lines ? LINE * lines + 8 : 0;
 }
 
 wf_box wf_draw_legend(wf_canvas *c, const wf_axes *a) {
     const wf_layout *layout = a->layout;
     if (layout->look->legend != WF_LEGEND_BELOW) return draw_corner(c, a);
     walk_names(c, layout->plot, layout->look->left, right_of(layout->plot),
-               layout->axes_height + 2);
+               layout->axes_height + 5);
     return (wf_box){0};
 }

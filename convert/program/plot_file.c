@@ -521,12 +521,14 @@ static weft_status load(reading *r) {
     bool standard_input = !strcmp(r->path, "-");
     FILE *file = standard_input ? stdin : fopen(r->path, "rb");
     if (!file) return wf_fail(r->err, WEFT_FAILED, "%.300s: %s", r->path, strerror(errno));
+    errno = 0;
     r->file->root = json_loadf(file, JSON_REJECT_DUPLICATES, &why);
+    bool exhausted = errno == ENOMEM; /* which jansson may take for a fault of the text */
     bool unread = ferror(file);
     if (!standard_input) fclose(file);
     if (unread) return wf_fail(r->err, WEFT_FAILED, "%.300s: it cannot be read", r->path);
     if (r->file->root) return WEFT_OK;
-    if (json_error_code(&why) == json_error_out_of_memory) return no_memory(r);
+    if (exhausted) return no_memory(r);
     return wf_fail(r->err, WEFT_USAGE, "%.300s: line %d, column %d: %s", r->path, why.line,
                    why.column, why.text);
 }

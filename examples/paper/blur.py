@@ -36,8 +36,8 @@ def run(ctx):
         f"{number(half_power(responses['rotated'][0]) * 60, 0)} Hz, the camera's beyond "
         f"{number(half_power(responses['ccd'][0]) * 60, 0)} Hz.</figcaption></figure>",
         figure("fig-7", '<div class="row n2 plots">' +
-               shape_plot(shapes["diamond"], "time, fields", "Measured weight of the diamond in time and "
-                          "height", (2, 2), (420, 320)) + temporal_plot(responses) + "</div>",
+               shape_plot(ctx.weft, shapes["diamond"], "time, fields", "Measured weight of the diamond in time and "
+                          "height", (2, 2), (420, 320)) + temporal_plot(ctx.weft, responses) + "</div>",
                "<b>Figure 7.</b> The diamond as measured, and how much of a change in time "
                "passes. Curves are closed forms, dots are measured in the frames above."),
         f"At 15 Hz the camera keeps {percent(at['ccd'])}, the diamond {percent(at['diamond'])}, "

@@ -2,7 +2,7 @@
 import pictures
 from analysis import rms
 from page import figure, picture, side_by_side
-from plots import Axis, Plot, number
+from plots import Plot, axis, number
 from shapes import shape_plot
 
 
@@ -26,34 +26,30 @@ def compare(ctx):
     return camera, made, difference, noise
 
 
-def lattice_plot(shape):
-    """The camera's window over the fields' lines: (t, y) as measured, repeated."""
-    plot = Plot(Axis(-0.5, 4, "time, fields", ticks=range(0, 5)),
-                Axis(5, -1, "y, scan lines", ticks=range(-1, 6)),
+def lattice_plot(weft):
+    """The camera's windows in time and height, over the lines of the fields."""
+    plot = Plot(axis(-0.5, 4, "time, fields", ticks=range(0, 5)),
+                axis(5, -1, "y, scan lines", ticks=range(-1, 6)),
                 "The windows of a camera in time and height: two lines high, a field long", 420, 320)
     for n in range(4):
-        for j in range(n % 2, 5, 2):
-            x0, x1 = plot.px(n), plot.px(n + 1)
-            y0, y1 = plot.py(j - 0.5), plot.py(j + 1.5)
-            plot.parts.append(f'<rect x="{x0 + 2}" y="{max(y0, plot.top) + 2}" width="{x1 - x0 - 4}" '
-                              f'height="{min(y1, plot.height - plot.bottom) - max(y0, plot.top) - 4}" '
-                              f'class="bar s{1 + n % 2}" opacity=".55"/>')
-            plot.parts.append(f'<circle class="dot s{1 + n % 2}" cx="{x0}" cy="{plot.py(j + 0.5)}" r="4"/>')
-    return plot.svg()
+        rows = range(n % 2, 5, 2)
+        plot.add("boxes", boxes=[[n, n + 1, j - 0.5, j + 1.5] for j in rows], series=1 + n % 2)
+        plot.points([(n, j + 0.5) for j in rows], 1 + n % 2, radius=4)
+    return plot.svg(weft)
 
 
 def run(ctx):
     camera, made, difference, noise = compare(ctx)
     left = pictures.png(pictures.display_bytes(camera))
-    right = pictures.png(pictures.grey_rows(made, 0, range(485)))
+    right = pictures.png(pictures.gray_rows(made, 0, range(485)))
     shape = 720 * 10 / 11 / 485
     ctx.report.section(
         "camera", "What a camera does",
         "A CCD camera sees with rows of sensors one scan line high that collect light for a whole "
         "field. Rows are read out in pairs, other pairs for the next field. So each line "
         "averages a box two lines high and a field long.",
-        '<figure id="fig-4"><div class="row n2 plots">' + lattice_plot(None) +
-        shape_plot(ctx.figures["shapes"]["ccd"], "time, fields", "Measured weight of the aperture ccd "
+        '<figure id="fig-4"><div class="row n2 plots">' + lattice_plot(ctx.weft) +
+        shape_plot(ctx.weft, ctx.figures["shapes"]["ccd"], "time, fields", "Measured weight of the aperture ccd "
                    "in time and height", (2, 3), (420, 320)) +
         "</div><figcaption><b>Figure 4.</b> Left: the boxes of both fields overlap in height and "
         "follow each other in time. Right: the aperture <code>ccd</code>, measured. A point of "

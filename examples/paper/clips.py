@@ -22,7 +22,7 @@ CLIPS = (
 def sprite(clip, fields, color):
     """All fields' own lines under each other."""
     rows = []
-    cut = pictures.color_rows if color else pictures.grey_rows
+    cut = pictures.color_rows if color else pictures.gray_rows
     for n in range(fields):
         rows += cut(clip, n // 2, clip.own_lines(n))
     return pictures.uri(pictures.png(rows, color=color, filtered=color))

@@ -4,7 +4,7 @@ import cmath
 import pictures
 from analysis import decibels, PI
 from page import figure, picture, side_by_side, table
-from plots import Axis, Plot, number
+from plots import Plot, axis, number
 
 # Raster, pixel aspect, field-line and pixel frequency of the subcarrier.
 SYSTEMS = {
@@ -116,7 +116,7 @@ def nearest(system, clip):
 def shot(clip, system, note):
     s = SYSTEMS[system]
     rows = pictures.color_rows(clip, 0, range(clip.lines))
-    return picture(pictures.png(rows, color=True, filtered=True), f"A grey zone plate as a television shows "
+    return picture(pictures.png(rows, color=True, filtered=True), f"A gray zone plate as a television shows "
                    f"it: {note}", note=note, shape=clip.width * s["aspect"] / clip.lines)
 
 
@@ -130,20 +130,17 @@ def close_up(clip, system, note):
                    "pixels", note, 146 / 120)
 
 
-def places_plot(found):
-    plot = Plot(Axis(-0.5, 0.5, "horizontal frequency, cycles a pixel", ticks=(-0.5, -0.25, 0, 0.25, 0.5)),
-                Axis(-0.4, 0.4, "vertical frequency, cycles a line", ticks=(-0.25, 0, 0.25)),
+def places_plot(weft, found):
+    plot = Plot(axis(-0.5, 0.5, "horizontal frequency, cycles a pixel", ticks=(-0.5, -0.25, 0, 0.25, 0.5)),
+                axis(-0.4, 0.4, "vertical frequency, cycles a line", ticks=(-0.25, 0, 0.25)),
                 "Where the bullseyes stand, as frequencies of the zone plate", height=380)
     for k, (system, (eyes, _, _)) in enumerate(found.items(), 1):
         s, lines = SYSTEMS[system], 486 if system == "ntsc" else 576
-        for sx in (-1, 1):
-            for f in s["down"]:
-                for sy in (-1, 1):
-                    plot.parts.append(f'<circle class="line s{k} dashed" cx="{plot.px(sx * s["across"])}" '
-                                      f'cy="{plot.py(sy * f)}" r="11"/>')
+        carriers = [(sx * s["across"], sy * f) for sx in (-1, 1) for f in s["down"] for sy in (-1, 1)]
+        plot.add("points", points=carriers, series=k, radius=11, hollow=True, dashed=True)
         plot.points([(x * s["aspect"] ** 2 / lines, -y / lines) for _, x, y in eyes], k,
                     f"{s['name']}, found; the rings are the subcarrier", 4)
-    return plot.svg()
+    return plot.svg(weft)
 
 
 def percent(value, digits=1):
@@ -187,8 +184,8 @@ def prose(ctx, clips, careful, figures):
         "On its way to a living room a picture becomes composite: color is put on a subcarrier, "
         "right in among the luminance. A cheap encoder does not make room for it first. Then fine "
         "detail that happens to look like the subcarrier <i>is</i> color to a television. This "
-        "zone plate is grey, every pixel of it.",
-        figure("fig-11", four + '<div style="height:16px"></div>' + near, "<b>Figure 11.</b> What a set shows of the grey zone plate, after "
+        "zone plate is gray, every pixel of it.",
+        figure("fig-11", four + '<div style="height:16px"></div>' + near, "<b>Figure 11.</b> What a set shows of the gray zone plate, after "
                "<code>weft composite</code> with a cheap encoder. Above NTSC, below PAL; left "
                "through <code>box</code>, right through <code>shaped</code>; and one bullseye of "
                "each, enlarged."),
@@ -198,7 +195,7 @@ def prose(ctx, clips, careful, figures):
         f"bullseyes sink from {number(level['ntsc', 'box'], 3)} to "
         f"{number(level['ntsc', 'shaped'], 3)} of white with NTSC and from "
         f"{number(level['pal', 'box'], 3)} to {number(level['pal', 'shaped'], 3)} with PAL.",
-        table(("False color of the grey "
+        table(("False color of the gray "
                "plate", "NTSC, RMS", "99.9 % below", "PAL, RMS", "99.9 % below"), lines),
         figure("careful", '<div class="row n2">' + shot(careful, "ntsc", "<b>NTSC</b>, box, careful encoder, "
                "comb filter") + "<div><p>With the best hardware it is no problem at all. Here the encoder "
@@ -206,7 +203,7 @@ def prose(ctx, clips, careful, figures):
                "lines. Of the bullseyes "
                f"{number(decibels(clean['ntsc'] / level['ntsc', 'box']), 0)} dB are left. The "
                "price is fine luminance around the subcarrier, which is gone.</p></div></div>",
-               "The same grey plate, by a careful studio."))
+               "The same gray plate, by a careful studio."))
 
 
 def bullseye_section(ctx, eyes, clips):
@@ -223,7 +220,7 @@ def bullseye_section(ctx, eyes, clips):
         "the subcarrier makes 227.5 cycles a line and neighbors within a field are in opposite "
         "phase. For PAL, 283.75 cycles and a V that is switched every line put U and V close to "
         "an eighth of a cycle a line.",
-        figure("bullseyes-plot", places_plot(eyes), "Middles of the bullseyes in the pictures above, on the "
+        figure("bullseyes-plot", places_plot(ctx.weft, eyes), "Middles of the bullseyes in the pictures above, on the "
                "plate's frequencies."),
         table(("System", "Found at, pixels and lines from the middle", "Computed", "Chroma"), lines),
         "PAL's U and V bullseyes overlap, and where they do, their middles pull on each other.")

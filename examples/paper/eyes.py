@@ -4,7 +4,7 @@ import cmath
 import pictures
 from analysis import crossing, edge_width, PI
 from page import figure, picture, side_by_side
-from plots import Axis, Plot, number
+from plots import Plot, axis, number
 
 SPEED = 8          # pixels a field of 1/59.94 s
 FIELDS = 20        # looked at
@@ -106,9 +106,9 @@ def views(ctx):
     return '<div style="height:14px"></div>'.join(rows)
 
 
-def trade_plot(found):
-    plot = Plot(Axis(0, 28, "blur for the eye that follows, pixels from 10 to 90 %"),
-                Axis(0, 1.02, "strobing for the eye that rests", ticks=(0, 0.25, 0.5, 0.75, 1)),
+def trade_plot(weft, found):
+    plot = Plot(axis(0, 28, "blur for the eye that follows, pixels from 10 to 90 %"),
+                axis(0, 1.02, "strobing for the eye that rests", ticks=(0, 0.25, 0.5, 0.75, 1)),
                 "Strobing against blur for temporal widths, 60 fields and 24 frames", height=360)
     fields = [(c["blur"], c["strobe"]) for (s, _), c in found.items() if s == "60 fields"]
     film = [(c["blur"], c["strobe"]) for (s, _), c in found.items() if s == "24 frames"]
@@ -122,7 +122,7 @@ def trade_plot(found):
             low = case["strobe"] < 0.05
             plot.word(case["blur"], case["strobe"], word, anchor="middle" if low else "start",
                       dx=14 if low else 7, dy=-9 if low else 4, series=1 if screen == "60 fields" else 2)
-    return plot.svg()
+    return plot.svg(weft)
 
 
 def run(ctx):
@@ -143,7 +143,7 @@ def run(ctx):
         figure("judder-views", views(ctx), "What has fallen on the retina after eight fields. Above, the "
                "eye follows; below, it rests. Film at 24 frames shows each image two or three "
                "times, and the following eye sees two or three of them side by side."),
-        figure("judder-plot", trade_plot(found), "Every temporal width is a place on this curve. "
+        figure("judder-plot", trade_plot(ctx.weft, found), "Every temporal width is a place on this curve. "
                "Down is less judder, left is sharper. No width is at the lower left corner, and "
                "24 frames are nowhere near."),
         f"With 60 fields a window of one field removes strobing altogether ({number(strobe[1], 2)} "

@@ -1,10 +1,9 @@
 """Figures 1 to 3: where the samples of interlaced video lie, and what that does to spectra."""
 import math
 
-import pictures
 from analysis import decibels, mean, spectrum, steps
 from page import figure, side_by_side
-from plots import Axis, Plot, number
+from plots import Plot, axis, number
 
 FIELD_RATE = 60000 / 1001
 SUBCARRIER = (35 / 132, 0.25)  # cycles a pixel, cycles a frame line; 15 Hz
@@ -56,32 +55,32 @@ def replica(levels, xs, ys, near, reach):
     return xs[i], ys[j], alike, decibels(height / base)
 
 
-def heat_of(levels, floor=-45):
+def add_levels(plot, levels, box, floor=-45):
+    """A spectrum in decibels, below its largest value."""
     top = max(map(max, levels))
-    return pictures.heat([[decibels(v / top, floor) for v in row] for row in reversed(levels)], floor, 0)
+    plot.map([[decibels(v / top, floor) for v in row] for row in reversed(levels)], box, floor, 0)
 
 
 # ---- Figure 1 ----
 
-def scan_plot(clip, fields, x0, x1):
+def scan_plot(weft, clip, fields, x0, x1):
     """Dots where there are samples, as bright as they are."""
     first = fields // 2 - 6
     middle = clip.lines // 2
-    plot = Plot(Axis(-0.6, 11.6, "time, fields of 1/59.94 s", ticks=range(0, 12)),
-                Axis(12.5, -12.5, "y, scan lines", ticks=range(-12, 13, 4)),
+    plot = Plot(axis(-0.6, 11.6, "time, fields of 1/59.94 s", ticks=range(0, 12)),
+                axis(12.5, -12.5, "y, scan lines", ticks=range(-12, 13, 4)),
                 "Samples of an interlaced picture in time and height: every field has every other "
                 "line")
-    plot.parts.append(f'<rect x="{plot.left}" y="{plot.top}" width="{plot.width - plot.left - plot.right}" '
-                      f'height="{plot.height - plot.top - plot.bottom}" fill="#14161d"/>')
+    plot.map([[0]], (-0.6, 11.6, -12.5, 12.5), 0, 1)  # a dark ground
+    dots, shades = [], []
     for n in range(first, first + 12):
         for y in clip.own_lines(n):
             if abs(y - middle) > 12:
                 continue
-            light = min(1.0, 1.8 * mean(clip.line(n // 2, y, x0, x1))) ** (1 / 2.4)
-            shade = round(46 + 209 * light)
-            plot.parts.append(f'<circle cx="{plot.px(n - first)}" cy="{plot.py(y - middle)}" '
-                              f'r="4.6" fill="rgb({shade},{shade},{max(60, shade - 14)})"/>')
-    return plot.svg()
+            dots.append((n - first, y - middle))
+            shades.append(0.18 + 0.82 * min(1.0, 1.8 * mean(clip.line(n // 2, y, x0, x1))) ** (1 / 2.4))
+    plot.add("points", points=dots, shades=shades, radius=4.6)
+    return plot.svg(weft)
 
 
 def field_interval(clip, fields, x0, x1, speed):
@@ -98,18 +97,18 @@ def field_interval(clip, fields, x0, x1, speed):
 
 # ---- Figures 2 and 3 ----
 
-def interlace_plot(levels, xs, ys, title, rings):
-    plot = Plot(Axis(xs[0] * FIELD_RATE, xs[-1] * FIELD_RATE, "temporal frequency, Hz",
+def interlace_plot(weft, levels, xs, ys, title, rings):
+    plot = Plot(axis(xs[0] * FIELD_RATE, xs[-1] * FIELD_RATE, "temporal frequency, Hz",
                      ticks=(-60, -30, 0, 30, 60)),
-                Axis(ys[0], ys[-1], "vertical frequency, cycles a line", ticks=(-1, -0.5, 0, 0.5, 1)),
+                axis(ys[0], ys[-1], "vertical frequency, cycles a line", ticks=(-1, -0.5, 0, 0.5, 1)),
                 title, height=400)
-    plot.image(heat_of(levels), plot.x.low, plot.x.high, plot.y.high, plot.y.low)
+    add_levels(plot, levels, (xs[0] * FIELD_RATE, xs[-1] * FIELD_RATE, ys[-1], ys[0]))
     if rings:
         plot.ring(0, 0, "baseband")
         for x, y, text in ((30, 0.5, "30 Hz, 0.5"), (60, 0, "60 Hz, 0"), (0, 1, "0, 1")):
             plot.ring(x, y, text)
-        plot.ring(15, SUBCARRIER[1], "C", 11, below=True, kind="carrier")
-    return plot.svg()
+        plot.ring(15, SUBCARRIER[1], "C", 11, below=True, dashed=True)
+    return plot.svg(weft)
 
 
 def flicker_share(levels, xs, ys):
@@ -142,20 +141,20 @@ def spatial(ctx):
     return xs, spectrum(clip.picture(), xs, xs)
 
 
-def spatial_plot(levels, xs):
-    plot = Plot(Axis(xs[0], xs[-1], "horizontal frequency, cycles a pixel", ticks=(-1, -0.5, 0, 0.5, 1)),
-                Axis(xs[0], xs[-1], "vertical frequency, cycles a line", ticks=(-1, -0.5, 0, 0.5, 1)),
+def spatial_plot(weft, levels, xs):
+    plot = Plot(axis(xs[0], xs[-1], "horizontal frequency, cycles a pixel", ticks=(-1, -0.5, 0, 0.5, 1)),
+                axis(xs[0], xs[-1], "vertical frequency, cycles a line", ticks=(-1, -0.5, 0, 0.5, 1)),
                 "Measured spectrum over x and y: the picture's star again at every sampling "
                 "frequency",
                 height=400)
-    plot.image(heat_of(levels), xs[0], xs[-1], xs[-1], xs[0])
+    add_levels(plot, levels, (xs[0], xs[-1], xs[-1], xs[0]))
     plot.ring(0, 0, "baseband")
     plot.ring(1, 0, "1, 0")
     plot.ring(0, 1, "0, 1")
     for x in (-SUBCARRIER[0], SUBCARRIER[0]):
         for y in (-SUBCARRIER[1], SUBCARRIER[1]):
-            plot.ring(x, y, "C", 11, below=y < 0, kind="carrier")
-    return plot.svg()
+            plot.ring(x, y, "C", 11, below=y < 0, dashed=True)
+    return plot.svg(weft)
 
 
 def line_flicker(ctx):
@@ -194,11 +193,11 @@ def run(ctx):
 def section(ctx, times, figures, stars):
     xs, ys, found, clips, fields, width = times
     seconds, plain, shares = figures
-    first = scan_plot(clips["notch"], fields, 6 * width + 1, 7 * width - 1)
+    first = scan_plot(ctx.weft, clips["notch"], fields, 6 * width + 1, 7 * width - 1)
     second = side_by_side(
-        interlace_plot(found["notch"], xs, ys, "Measured spectrum of interlaced fields: the fan and "
+        interlace_plot(ctx.weft, found["notch"], xs, ys, "Measured spectrum of interlaced fields: the fan and "
                        "its replicas", True),
-        interlace_plot(found["progressive"], xs, ys, "The same without interlace: no replica at "
+        interlace_plot(ctx.weft, found["progressive"], xs, ys, "The same without interlace: no replica at "
                        "30 Hz and half a cycle a line", False))
     ctx.report.section(
         "lattice", "Half a picture at a time",
@@ -223,7 +222,7 @@ def section(ctx, times, figures, stars):
         f"itself, flicker stands at {number(shares['line'], 1)} dB when each looks at one line's "
         f"height, {number(shares['box'], 1)} dB for two lines and {number(shares['notch'], 1)} dB "
         "for the paper's smooth filter.",
-        figure("fig-3", '<div class="row n2 plots">' + spatial_plot(stars[1], stars[0]) +
+        figure("fig-3", '<div class="row n2 plots">' + spatial_plot(ctx.weft, stars[1], stars[0]) +
                "<div><p>Across the picture nothing is interlaced, and the lattice is the plain "
                "one of pixels and lines. The star is the spectrum of twelve crossed sticks. Its "
                "copies at one cycle a pixel and one cycle a line are what ordinary antialiasing "

@@ -3,20 +3,20 @@ import json
 
 from analysis import decibels, rms
 from page import figure, side_by_side
-from plots import Axis, Plot, number
+from plots import THEORY, Plot, axis, number
 from shapes import profile, response_of, shape_plot, vertical_plot
 from still import fields, percent, share
 
 
-def profile_plot(shapes):
-    plot = Plot(Axis(-2.5, 2.5, "height from the line's middle, scan lines", ticks=range(-2, 3)),
-                Axis(0, 1.08, "weight", ticks=(0, 0.25, 0.5, 0.75, 1)),
+def profile_plot(weft, shapes):
+    plot = Plot(axis(-2.5, 2.5, "height from the line's middle, scan lines", ticks=range(-2, 3)),
+                axis(0, 1.08, "weight", ticks=(0, 0.25, 0.5, 0.75, 1)),
                 "Measured vertical weights of the apertures and the paper's f", 420, 340)
     for k, name in enumerate(("line", "box", "notch", "shaped"), 1):
         plot.points([p for p in profile(shapes[name]) if abs(p[0]) < 2.4], k, name, 2.3)
     curve = [(v / 50, quadratic(v / 50)) for v in range(-120, 121)]
-    plot.line(curve, 6, "f of the paper", dashed=True)
-    return plot.svg()
+    plot.line(curve, THEORY, "f of the paper", dashed=True)
+    return plot.svg(weft)
 
 
 def quadratic(v):
@@ -32,14 +32,14 @@ SIDES = {"calm": ("end", -9, 12), "shaped": ("start", 9, 14)}  # where names do 
 
 
 def costs_plot(found, curves):
-    plot = Plot(Axis(0, 1, "sharpness: response at a quarter of a cycle a line"),
-                Axis(0, 1.1 * max(100 * share(found, n) for n in found),
+    plot = Plot(axis(0, 1, "sharpness: response at a quarter of a cycle a line"),
+                axis(0, 1.1 * max(100 * share(found, n) for n in found),
                      "flicker of a still zone plate, % RMS"), "Flicker against sharpness, by aperture",
                 height=360)
     for curve in curves:
         width = number(curve["width"])
         pairs = [(x, 100 * y) for x, y in zip(curve["sharpness"], curve["flicker"])]
-        plot.line(pairs, 6, f"the least there can be, {width} pixel" + ("s" if width != "1" else "") +
+        plot.line(pairs, THEORY, f"the least there can be, {width} pixel" + ("s" if width != "1" else "") +
                   " wide, overshoot 8 %", dashed=curve["width"] > 1)
     for k, name in enumerate(found, 1):
         x, y = found[name]["bob"]["sharpness"], 100 * share(found, name)
@@ -62,7 +62,7 @@ def run(ctx):
     zero = {name: response_of(shapes[name], 0.5) for name in shapes}
     alike = rms([a[1] - b[1] for a, b in zip(profile(shapes["notch"]), profile(shapes["shaped"]))])
     form = rms([w - quadratic(v) for v, w in profile(shapes["notch"])])
-    maps = side_by_side(*(shape_plot(shapes[name], "x, pixels", f"Measured weight of the aperture {name}",
+    maps = side_by_side(*(shape_plot(ctx.weft, shapes[name], "x, pixels", f"Measured weight of the aperture {name}",
                                      (2, 3), (300, 380)) for name in ("box", "notch", "shaped")))
     box, notch = beyond(heights["box"]), beyond(heights["notch"])
     ctx.report.section(
@@ -73,7 +73,7 @@ def run(ctx):
         "that shape into a card. Points that fall into the hole count alike, those outside do not "
         "count, as in the facsimile machines of 1934.",
         figure("fig-9", maps + '<div style="height:16px"></div><div class="row n2 plots">' +
-               profile_plot(shapes) + vertical_plot(ctx, heights) + "</div>",
+               profile_plot(ctx.weft, shapes) + vertical_plot(ctx, heights) + "</div>",
                "<b>Figure 9.</b> Apertures as measured with points of light on a grid of 1/8 "
                "pixel, lines drawn white. Below left: their weight by height, over the paper's f. "
                "Below right: their responses, dots measured on zone plates, curves in closed form."),
@@ -118,7 +118,7 @@ def frontier(ctx, found):
                  "flicker. It has weights below zero, which a hole in a card cannot have.")
     ctx.report.section(
         "frontier", "What sharpness costs", *words,
-        figure("frontier-plot", plot.svg(), "Flicker of the still zone plate against sharpness. Dots are "
+        figure("frontier-plot", plot.svg(ctx.weft), "Flicker of the still zone plate against sharpness. Dots are "
                "measured by <code>weft measure</code> on rendered fields, curves computed by "
                "<code>weft filters --frontier</code>."))
     ctx.report.row("§5", "There is a tradeoff between flicker and vertical sharpness.",

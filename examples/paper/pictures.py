@@ -1,4 +1,4 @@
-"""PNG and EXR files from lists of numbers, and the ways pictures are cut and coloured."""
+"""PNG and EXR files from lists of numbers, and the ways pictures are cut and colored."""
 import base64
 import struct
 import zlib
@@ -11,7 +11,7 @@ def chunk(kind, data):
 
 
 def png(rows, color=False, palette=None, filtered=False):
-    """A PNG of 8 bits. Rows are bytes: grey, R G B, or indices of a palette of R G B triples."""
+    """A PNG of 8 bits. Rows are bytes: gray, R G B, or indices of a palette of R G B triples."""
     step = 3 if color else 1
     kind = 2 if color else 3 if palette else 0
     head = struct.pack(">IIBBBBB", len(rows[0]) // step, len(rows), 8, kind, 0, 0, 0)
@@ -32,20 +32,20 @@ def uri(data, kind="image/png"):
 
 # ---- From video ----
 
-GREY = {}
+GRAY = {}
 
 
-def grey_table(bits):
-    if bits not in GREY:
+def gray_table(bits):
+    if bits not in GRAY:
         step = 1 << (bits - 8)
-        GREY[bits] = bytes(min(255, max(0, round((code / step - 16) * 255 / 219)))
+        GRAY[bits] = bytes(min(255, max(0, round((code / step - 16) * 255 / 219)))
                            for code in range(1 << bits))
-    return GREY[bits]
+    return GRAY[bits]
 
 
-def grey_rows(clip, frame, lines, x0=0, x1=None):
+def gray_rows(clip, frame, lines, x0=0, x1=None):
     """The luma of those lines as bytes, black 0 and white 255, as the display is given it."""
-    table, luma = grey_table(clip.bits), clip.frames[frame][0]
+    table, luma = gray_table(clip.bits), clip.frames[frame][0]
     x1 = clip.width if x1 is None else x1
     return [bytes(table[code] for code in luma[y * clip.width + x0:y * clip.width + x1])
             for y in lines]
@@ -90,7 +90,7 @@ def display_bytes(rows, top=1.0):
 # ---- Heat maps ----
 
 def ramp():
-    """256 colours from near black over violet and orange to pale yellow."""
+    """256 colors from near black over violet and orange to pale yellow."""
     stops = [(0, (10, 8, 28)), (70, (74, 24, 110)), (140, (190, 54, 84)), (205, (249, 142, 40)),
              (255, (252, 250, 190))]
     colors = []

@@ -91,9 +91,10 @@ class Weft:
         self.made, self.seconds, self.runs = {}, 0.0, 0
         self.scenes = os.path.dirname(os.path.abspath(__file__))
 
-    def run(self, *words):
+    def run(self, *words, given=None):
+        """What the program prints; `given` is its standard input."""
         started = time.monotonic()
-        done = subprocess.run([self.program, *map(str, words)], capture_output=True, text=True,
+        done = subprocess.run([self.program, *map(str, words)], capture_output=True, text=True, input=given,
                               check=False)
         self.seconds += time.monotonic() - started
         self.runs += 1

@@ -5,7 +5,7 @@ import os
 
 import pictures
 from analysis import decibels, plate_response, rms, sinc
-from plots import Axis, Plot
+from plots import Plot, axis
 
 FINE = 8       # positions a pixel, a line and a field
 BLOCK = 8      # pixels or lines around each point
@@ -77,24 +77,20 @@ def impulse_ty(ctx, aperture, tau):
     return shape
 
 
-def shape_plot(shape, label, title, reach, size=(300, 300)):
+def shape_plot(weft, shape, label, title, reach, size=(320, 300)):
     """A heat map of h with the scan lines' edges drawn over it."""
     top = max(map(max, shape))
-    plot = Plot(Axis(-reach[0], reach[0], label, ticks=range(-reach[0], reach[0] + 1)),
-                Axis(reach[1], -reach[1], "y, scan lines", ticks=range(-reach[1], reach[1] + 1)), title,
+    plot = Plot(axis(-reach[0], reach[0], label, ticks=range(-reach[0], reach[0] + 1)),
+                axis(reach[1], -reach[1], "y, scan lines", ticks=range(-reach[1], reach[1] + 1)), title,
                 *size)
-    plot.left, plot.right = 46, 10
     half = BLOCK / 2
     rows = [row[int((half - reach[0]) * FINE):int((half + reach[0]) * FINE)]
             for row in shape[int((half - reach[1]) * FINE):int((half + reach[1]) * FINE)]]
     low = min(0, min(map(min, rows)))
-    plot.image(pictures.heat(rows, low, top), -reach[0], reach[0], -reach[1], reach[1])
-    for k in range(-reach[1], reach[1] + 1):
-        at = plot.py(k - 0.5) if k > -reach[1] else None
-        if at:
-            plot.parts.append(f'<line x1="{plot.left}" x2="{plot.width - plot.right}" y1="{at}" '
-                              f'y2="{at}" stroke="#fff" stroke-opacity=".28"/>')
-    return plot.svg()
+    plot.map(rows, (-reach[0], reach[0], -reach[1], reach[1]), low, top)
+    for k in range(1 - reach[1], reach[1] + 1):
+        plot.add("rule", y=k - 0.5)
+    return plot.svg(weft)
 
 
 def profile(shape, across=True):
@@ -153,36 +149,36 @@ def response_of(shape, frequency, across=True):
 
 
 def vertical_plot(ctx, series):
-    plot = Plot(Axis(0, 1, "vertical frequency, cycles a line", ticks=(0, 0.25, 0.5, 0.75, 1)),
-                Axis(-60, 3, "response, dB", ticks=(0, -20, -40, -60)),
+    plot = Plot(axis(0, 1, "vertical frequency, cycles a line", ticks=(0, 0.25, 0.5, 0.75, 1)),
+                axis(-60, 3, "response, dB", ticks=(0, -20, -40, -60)),
                 "Measured vertical responses of the apertures and their closed forms", 420, 340)
-    plot.rule(x=0.5, text="what is here flickers")
+    plot.add("rule", x=0.5, text="what is here flickers")
     for k, (name, pairs) in enumerate(series.items(), 1):
         curve = [(r["frequency"], r["vertical_db"]) for r in ctx.weft.response(name)["response"]]
         exact = EXACT.get(name)
         if exact:
             curve = [(f / 200, decibels(abs(exact(f / 200)))) for f in range(201)]
-        plot.line(curve, series=k, key=name)
+        plot.line(curve, series=k, name=name)
         plot.points([(f, decibels(r)) for f, r in pairs], series=k)
-    return plot.svg()
+    return plot.svg(ctx.weft)
 
 
 EXACT = {"line": sinc, "box": lambda f: sinc(2 * f),
          "notch": lambda f: sinc(2 * f) * sinc(f) ** 2, "shaped": lambda f: sinc(2 * f) * sinc(f) ** 2}
 
 
-def temporal_plot(responses):
-    plot = Plot(Axis(0, 60, "temporal frequency, Hz", ticks=(0, 15, 30, 45, 60)),
-                Axis(0, 1.05, "response", ticks=(0, 0.25, 0.5, 0.75, 1)),
+def temporal_plot(weft, responses):
+    plot = Plot(axis(0, 60, "temporal frequency, Hz", ticks=(0, 15, 30, 45, 60)),
+                axis(0, 1.05, "response", ticks=(0, 0.25, 0.5, 0.75, 1)),
                 "Measured temporal responses of four apertures and their closed forms", 420, 320)
     for k, (name, (pairs, exact)) in enumerate(responses.items(), 1):
-        plot.line([(f * 0.6, abs(exact(f / 100))) for f in range(101)], series=k, key=name)
+        plot.line([(f * 0.6, abs(exact(f / 100))) for f in range(101)], series=k, name=name)
         plot.points([(60 * f, r) for f, r in pairs], series=k)
-    return plot.svg()
+    return plot.svg(weft)
 
 
 def as_one(clip):
-    return pictures.png(pictures.grey_rows(clip, 0, range(clip.lines)))
+    return pictures.png(pictures.gray_rows(clip, 0, range(clip.lines)))
 
 
 def run(ctx):

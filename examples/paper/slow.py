@@ -3,7 +3,7 @@ import pictures
 import still
 from analysis import crossing, rms, strongest
 from page import figure, picture
-from plots import Axis, Plot, number
+from plots import THEORY, Plot, axis, number
 
 FIELD_RATE = 60000 / 1001
 SPEEDS = range(0, 121, 10)
@@ -44,7 +44,7 @@ def slice_of(clip, x, fields, y0, lines):
     """Height down, fields across; black where a field has no line."""
     rows = [bytearray(fields) for _ in range(lines)]
     for n in range(fields):
-        frame = pictures.grey_rows(clip, n // 2, range(y0, y0 + lines), x, x + 1)
+        frame = pictures.gray_rows(clip, n // 2, range(y0, y0 + lines), x, x + 1)
         for k in range(lines):
             if (y0 + k) % 2 == clip.parity(n):
                 rows[k][n] = frame[k][0]
@@ -55,7 +55,7 @@ def bob_slice(clip, x, fields, y0, lines):
     """The same as a display that fills in lines shows it."""
     columns = []
     for n in range(fields):
-        values = [row[0] for row in pictures.grey_rows(clip, n // 2, range(clip.lines), x, x + 1)]
+        values = [row[0] for row in pictures.gray_rows(clip, n // 2, range(clip.lines), x, x + 1)]
         columns.append(bytes(values[y] if y % 2 == clip.parity(n) else (values[y - 1] + values[y + 1]) // 2
                              for y in range(y0, y0 + lines)))
     return pictures.png(pictures.enlarge([bytes(row) for row in zip(*columns)], 6, 6))
@@ -73,15 +73,15 @@ def slices(ctx):
     return "".join('<div class="row n4">' + "".join(row) + "</div>" for row in parts)
 
 
-def frequency_plot(found):
-    plot = Plot(Axis(0, 120, "speed of the edge, scan lines a second", ticks=range(0, 121, 30)),
-                Axis(0, 32, "frequency of the wobble, Hz", ticks=(0, 10, 20, 30)),
+def frequency_plot(weft, found):
+    plot = Plot(axis(0, 120, "speed of the edge, scan lines a second", ticks=range(0, 121, 30)),
+                axis(0, 32, "frequency of the wobble, Hz", ticks=(0, 10, 20, 30)),
                 "Frequency of the wobble against speed: 30 Hz at rest, 0 at 60 lines a second", height=320)
-    plot.band(24, 52, "where eyes see flicker best")
-    plot.line([(0, 30), (60, 0), (120, 30)], 6, "|speed \N{MINUS SIGN} 60| / 2", dashed=True)
+    plot.add("band", across=[24, 52], text="where eyes see flicker best")
+    plot.line([(0, 30), (60, 0), (120, 30)], THEORY, "|speed \N{MINUS SIGN} 60| / 2", dashed=True)
     plot.points([(v, one["hertz"]) for v, one in found["line"].items() if one["lines"] > 0.1], 1, "measured, line",
                 radius=3.4)
-    return plot.svg()
+    return plot.svg(weft)
 
 
 def run(ctx):
@@ -105,7 +105,7 @@ def run(ctx):
         "them anew |v \N{MINUS SIGN} 60|/2 times a second. At rest that is 30 Hz, fast and half hidden. At 30 "
         "lines a second it is 15 Hz, close to where eyes are most sensitive. At 60 it stands still: half the "
         "lines are just missing.",
-        figure("wobble-plot", frequency_plot(found), "How often a second the drawn edge swings about its "
+        figure("wobble-plot", frequency_plot(ctx.weft, found), "How often a second the drawn edge swings about its "
                f"true path, measured at 13 speeds. At 30 lines a second: {number(frequency, 1)} "
                f"Hz, by up to {number(amount, 2)} lines either way."),
         "Filtering in height is what helps. Seen from where single lines merge, an edge is where "

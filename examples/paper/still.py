@@ -2,7 +2,7 @@
 import pictures
 from analysis import correlation, mean, rms
 from page import figure, picture, side_by_side, table
-from plots import Axis, Plot, number
+from plots import Plot, axis, number
 
 RASTER = "525i"
 
@@ -34,7 +34,7 @@ def moire(clip):
 def fields(clip, name):
     shape = clip.width * 10 / 11 / clip.lines
     words = ("field 1, the lower lines", "field 2, the upper lines")
-    return side_by_side(*(picture(pictures.png(pictures.grey_rows(clip, 0, clip.own_lines(n))),
+    return side_by_side(*(picture(pictures.png(pictures.gray_rows(clip, 0, clip.own_lines(n))),
                                   f"Zone plate through {name}, {words[n]}", note=words[n], shape=shape)
                           for n in (0, 1)))
 
@@ -70,7 +70,7 @@ def percent(value, digits=2):
 
 def bobbed(clip, n, x0, x1, y0, y1):
     """What a display shows of a field: its own lines, those between by their neighbors."""
-    rows, own = pictures.grey_rows(clip, 0, range(clip.lines), x0, x1), clip.parity(n)
+    rows, own = pictures.gray_rows(clip, 0, range(clip.lines), x0, x1), clip.parity(n)
     out = []
     for y in range(y0, y1):
         if y % 2 == own:
@@ -164,8 +164,8 @@ def figure_8(ctx, found, line, notch):
 def rule(ctx, found, letters):
     moving = ctx.figures["wobble"]
     names = ("line", "box", "notch", "shaped")
-    plot = Plot(Axis(0, 120, "speed of the edge, scan lines a second", ticks=range(0, 121, 30)),
-                Axis(0, 0.6, "wobble of the edge's light, lines "
+    plot = Plot(axis(0, 120, "speed of the edge, scan lines a second", ticks=range(0, 121, 30)),
+                axis(0, 0.6, "wobble of the edge's light, lines "
                              "RMS"), "Wobble of edges against speed, by aperture",
                 height=320)
     for k, name in enumerate(names, 1):
@@ -179,7 +179,7 @@ def rule(ctx, found, letters):
         "Some would filter only what moves, and let still pictures keep all sharpness lines can "
         "carry. The paper was not convinced. Measure an edge at every speed from rest to 120 "
         "lines a second, and see whether rest is special.",
-        figure("rule-plot", plot.svg(), "How far an edge strays from its true path, as its lines tell "
+        figure("rule-plot", plot.svg(ctx.weft), "How far an edge strays from its true path, as its lines tell "
                "it. If standing still were harmless, the curves would start at zero."),
         f"At rest the sharp aperture makes an edge wobble by {number(still, 2)} lines RMS, at 30 "
         f"lines a second by {number(at30, 2)}. Rest is no refuge; only the frequency changes. And "

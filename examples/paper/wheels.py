@@ -6,7 +6,7 @@ import math
 import pictures
 from analysis import PI, edge_width, mean, sinc
 from page import figure, picture, side_by_side
-from plots import Axis, Plot, number
+from plots import THEORY, Plot, axis, number
 
 RATE = 60000 / 1001
 SPOKES, FIELDS, CELL = 8, 8, 60
@@ -50,10 +50,10 @@ def apparent(rpm):
     return (cycles - round(cycles)) * RATE / SPOKES * 60
 
 
-def turning_plot(found):
+def turning_plot(weft, found):
     low, high = -240, 240
-    plot = Plot(Axis(0, TOP_RPM, "turns a minute", ticks=range(0, 901, 225)),
-                Axis(low, high, "turns a minute as seen", ticks=(-225, 0, 225)),
+    plot = Plot(axis(0, TOP_RPM, "turns a minute", ticks=range(0, 901, 225)),
+                axis(low, high, "turns a minute as seen", ticks=(-225, 0, 225)),
                 "Apparent against true speed of an eight-spoked wheel: backwards above 225 turns "
                 "a minute",
                 420, 340)
@@ -62,17 +62,17 @@ def turning_plot(found):
     for rpm in fine:
         value = apparent(rpm)
         if run and abs(value - run[-1][1]) > 200:
-            plot.line(run, 6, dashed=True)
+            plot.line(run, THEORY, dashed=True)
             run = []
         run.append((rpm, value))
-    plot.line(run, 6, "as sampling says", dashed=True)
+    plot.line(run, THEORY, "as sampling says", dashed=True)
     plot.points(list(zip(RPM, [f[0] for f in found])), 2, "measured", 3.6)
-    return plot.svg()
+    return plot.svg(weft)
 
 
-def clear_plot(found):
-    plot = Plot(Axis(0, TOP_RPM, "turns a minute", ticks=range(0, 901, 225)),
-                Axis(0, 1.06, "clearness of the spokes", ticks=(0, 0.25, 0.5, 0.75, 1)),
+def clear_plot(weft, found):
+    plot = Plot(axis(0, TOP_RPM, "turns a minute", ticks=range(0, 901, 225)),
+                axis(0, 1.06, "clearness of the spokes", ticks=(0, 0.25, 0.5, 0.75, 1)),
                 "How clear the spokes are against speed, for four temporal widths", 420, 340)
     still = found[0][0][1]
     for k, (tau, wheels) in enumerate(found.items(), 1):
@@ -80,8 +80,8 @@ def clear_plot(found):
         plot.line([(5 * i, abs(sinc(tau * c))) for i, c in enumerate(cycles)], k,
                   f"{number(tau)} field" + ("s" if tau != 1 else ""))
         plot.points([(rpm, clear / still) for rpm, (_, clear) in zip(RPM, wheels)], k, radius=2.6)
-    plot.rule(x=225)
-    return plot.svg()
+    plot.add("rule", x=225)
+    return plot.svg(weft)
 
 
 # ---- The shipped scene ----
@@ -108,7 +108,8 @@ def wheel_section(ctx, found):
         "A wheel with eight spokes looks the same after an eighth of a turn. Once it turns by "
         "more than half of that between fields, the nearer spoke is the wrong one. With 60 fields "
         "a second this happens beyond 225 turns a minute.",
-        '<figure id="wheel-plots"><div class="row n2 plots">' + turning_plot(found[0]) + clear_plot(found) +
+        '<figure id="wheel-plots"><div class="row n2 plots">' + turning_plot(ctx.weft, found[0]) +
+        clear_plot(ctx.weft, found) +
         f"</div><figcaption>Left: {len(RPM)} wheels, each at a speed of its own, and how fast they "
         f"seem to turn. The one at {number(RPM[example], 0)} turns a minute seems to turn at "
         f"{number(found[0][example][0], 0)}. Right: how clearly the spokes are seen. With a window "

@@ -1,9 +1,7 @@
-"""Log-log plots as SVG, with the slope of each line fitted."""
+"""Log-log plots, drawn by `weft plot`, with the slope of each line fitted."""
+import json
 import math
-from xml.sax.saxutils import escape
-
-WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 760, 460, 70, 50, 40, 210
-COLORS = ["#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad", "#b8860b", "#16a085", "#7f8c8d", "#d35400"]
+import subprocess
 
 
 def slope(points):
@@ -17,70 +15,22 @@ def slope(points):
     return sum((x - mx) * (y - my) for x, y in pairs) / across if across > 0 else None
 
 
-class Axis:
-    """Decades from below the least to above the most, over a stretch of the picture."""
-
-    def __init__(self, values, start, end):
-        self.low = math.log10(min(values)) - 0.05
-        self.high = math.log10(max(values)) + 0.05
-        self.start, self.end = start, end
-
-    def at(self, value):
-        share = (math.log10(value) - self.low) / (self.high - self.low)
-        return self.start + share * (self.end - self.start)
-
-    def ticks(self):
-        for decade in range(math.floor(self.low), math.ceil(self.high) + 1):
-            for digit in (1, 2, 5):
-                value = digit * 10.0 ** decade
-                if self.low <= math.log10(value) <= self.high:
-                    yield value
+def items(number, name, points):
+    """A line and its dots, in the color of that number."""
+    fitted, series = slope(points), number % 8 + 1
+    yield {"kind": "line", "points": points, "series": series,
+           "name": name if fitted is None else f"{name}: slope {fitted:.2f}"}
+    yield {"kind": "points", "points": points, "series": series, "radius": 3}
 
 
-def text(x, y, what, anchor="middle", more=""):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" {more}>{escape(what)}</text>'
-
-
-def axes(x, y, xlabel, ylabel):
-    for value in x.ticks():
-        at = x.at(value)
-        yield f'<path d="M{at:.1f} {y.start}V{y.end}" class="grid"/>'
-        yield text(at, y.start + 18, f"{value:g}")
-    for value in y.ticks():
-        at = y.at(value)
-        yield f'<path d="M{x.start} {at:.1f}H{x.end}" class="grid"/>'
-        yield text(x.start - 8, at + 4, f"{value:g}", "end")
-    yield text((x.start + x.end) / 2, HEIGHT - 10, xlabel)
-    middle = (y.start + y.end) / 2
-    yield text(16, middle, ylabel, more=f'transform="rotate(-90 16 {middle})"')
-
-
-def line(x, y, number, name, points):
-    color = COLORS[number % len(COLORS)]
-    steps = "L".join(f"{x.at(a):.1f} {y.at(b):.1f}" for a, b in points)
-    yield f'<path d="M{steps}" stroke="{color}" fill="none" stroke-width="1.6"/>'
-    for a, b in points:
-        yield f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="3" fill="{color}"/>'
-    fitted = slope(points)
-    label = name if fitted is None else f"{name}: slope {fitted:.2f}"
-    yield text(WIDTH - RIGHT + 14, TOP + 16 + 20 * number, label, "start", f'fill="{color}"')
-
-
-def log_log(path, title, xlabel, ylabel, series):
-    """series: (name, [(x, y)]) each."""
+def log_log(weft, path, title, xlabel, ylabel, series):
+    """Draws into the SVG file path. weft: the program; series: (name, [(x, y)]) each."""
     series = [(name, sorted(p for p in points if p[0] > 0 and p[1] > 0))
               for name, points in series]
     series = [(name, points) for name, points in series if points]
     if not series:
         return
-    x = Axis([p[0] for _, points in series for p in points], LEFT, WIDTH - RIGHT)
-    y = Axis([p[1] for _, points in series for p in points], HEIGHT - BOTTOM, TOP)
-    body = [text(LEFT, 24, title, "start", 'font-weight="bold"'), *axes(x, y, xlabel, ylabel)]
-    for number, (name, points) in enumerate(series):
-        body += line(x, y, number, name, points)
-    with open(path, "w") as f:
-        f.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" '
-                'font-family="sans-serif" font-size="12">\n'
-                '<style>.grid{stroke:#ddd;stroke-width:1}</style>\n'
-                f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#fff"/>\n' +
-                "\n".join(body) + "\n</svg>\n")
+    plot = {"title": title, "width": 760, "height": 460,
+            "x": {"label": xlabel, "log": True}, "y": {"label": ylabel, "log": True},
+            "items": [i for k, (name, points) in enumerate(series) for i in items(k, name, points)]}
+    subprocess.run([weft, "plot", "-", "-o", path], input=json.dumps(plot), text=True, check=True)

@@ -113,8 +113,8 @@ def converter(bench):
             print(f"{aperture:18}{lines:5} lines  {ms:8.2f} ms a field  {ns:.3f} ns a sample  "
                   f"error {error:.2g}", flush=True)
     bench.save("converter.csv", ("aperture", "lines", "ms_a_field", "ns_a_sample", "error"), rows)
-    plot.log_log(os.path.join(bench.out, "converter.svg"), "Filtering one field, one thread",
-                 "frame lines", "milliseconds a field",
+    plot.log_log(bench.program("weft"), os.path.join(bench.out, "converter.svg"),
+                 "Filtering one field, one thread", "frame lines", "milliseconds a field",
                  [(a, [(r[1], r[2]) for r in rows if r[0] == a]) for a in APERTURES])
     bench.target("largest error against float64, of sum |W c|/sum W", max(r[4] for r in rows),
                  most=1e-6, unit="", timed=False)
@@ -196,7 +196,7 @@ def subframes(bench):
 
 
 def stages(bench):
-    """What filters and colours alone take, beside zimg."""
+    """What filters and colors alone take, beside zimg."""
     add = {line.split()[0]: float(line.split("add")[1].split()[0])
            for line in bench.text("resample").splitlines()}
     zimg = None
@@ -217,7 +217,7 @@ def stages(bench):
                  note=f"{add['box']:.2f} ms a subframe; zimg {zimg:.2f}" if zimg else "no zscale")
     color = [float(line.split("together")[1].split()[0])
              for line in bench.text("color").splitlines() if line.startswith("lin_rec709 to")]
-    bench.target("1920x540 field: colour, 4:2:2, codes; slowest shipped space", max(color),
+    bench.target("1920x540 field: color, 4:2:2, codes; slowest shipped space", max(color),
                  most=8, unit="ms")
 
 

@@ -81,7 +81,7 @@ def curves(bench, scenes):
     for scene in files:
         mine = curve_of(bench, scene)
         rows += mine
-        plot.log_log(os.path.join(bench.out, f"{mine[0][0]}.svg"),
+        plot.log_log(bench.program("weft"), os.path.join(bench.out, f"{mine[0][0]}.svg"),
                      f"{mine[0][0]}: error against time", "seconds of two threads together",
                      "RMSE, display-encoded",
                      [(how, known([r for r in mine if r[1] == how]))
@@ -129,8 +129,8 @@ def slopes(bench, scenes):
     points = whole_raster(bench, scenes, "carousel", "shaped")
     bench.target("adaptive, shaped, carousel, 525i: pixels within the error asked for",
                  100 * min(p[2] for p in points), least=99, unit="%")
-    plot.log_log(os.path.join(bench.out, "slopes.svg"), "errors asked for, 525i",
-                 "seconds of two threads together", "RMSE, display-encoded", series)
+    plot.log_log(bench.program("weft"), os.path.join(bench.out, "slopes.svg"),
+                 "errors asked for, 525i", "seconds of two threads together", "RMSE, display-encoded", series)
 
 
 # ---- POV-Ray ----
@@ -234,8 +234,8 @@ def peers(bench, scenes):
     theirs, finest = their_points(bench, pov)
     rows = [("weft", *p) for p in ours] + [("POV-Ray", *p) for p in theirs]
     bench.save("peers.csv", ("program", "seconds_a_frame", "rmse"), rows)
-    plot.log_log(os.path.join(bench.out, "peers.svg"), "carousel, a frame of 525i, two threads",
-                 "seconds a frame", "RMSE, display-encoded", [("weft", ours), ("POV-Ray", theirs)])
+    plot.log_log(bench.program("weft"), os.path.join(bench.out, "peers.svg"),
+                 "carousel, a frame of 525i, two threads", "seconds a frame", "RMSE, display-encoded", [("weft", ours), ("POV-Ray", theirs)])
     for rmse, least in ((1e-2, 10), (1e-3, 50)):
         mine, other = time_to(ours, rmse), time_to(theirs, rmse)
         note = "" if other else (f"at least: POV-Ray does not reach it, so its finest picture, 8 "

@@ -181,7 +181,7 @@ def look(page, text, whole):
     check("pictures are there", len(pictures) >= (30 if whole else 1) and min(pictures) > 0, str(pictures))
     charts = page.run("""Array.from(document.querySelectorAll('.plot > svg')).map(function (s) {
         return s.getBoundingClientRect().height > 50 &&
-               s.querySelectorAll('.line, circle, image, .bar').length > 0; })""")
+               s.querySelectorAll('polyline, circle, image').length > 0; })""")
     check("plots are drawn", len(charts) >= (15 if whole else 1) and all(charts), str(charts))
     rows = page.run("""Array.from(document.querySelectorAll('#table .claims tbody tr')).map(function (r) {
         return Array.from(r.cells).map(function (c) { return c.textContent; }); })""")
