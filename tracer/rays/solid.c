@@ -41,16 +41,19 @@ static wf_bounds polyhedron_bounds(SOLID) {
 
 /* ---- The table ---- */
 
+/* clang-format off */
 static const wf_solid_type types[WF_SOLID_KINDS] = {
-    [WF_SPHERE] = {"sphere", 1, unit_bounds},
-    [WF_BOX] = {"box", 1, unit_bounds},
-    [WF_CYLINDER] = {"cylinder", 1, unit_bounds},
-    [WF_CONE] = {"cone", 1, unit_bounds},
-    [WF_TORUS] = {"torus", 2, torus_bounds},
-    [WF_HALFSPACE] = {"halfspace", 1, halfspace_bounds},
-    [WF_QUADRIC] = {"quadric", 2, endless_bounds},
-    [WF_POLYHEDRON] = {"polyhedron", 1, polyhedron_bounds},
+    /*                 name          runs  bounds */
+    [WF_SPHERE]     = {"sphere",     1,    unit_bounds},
+    [WF_BOX]        = {"box",        1,    unit_bounds},
+    [WF_CYLINDER]   = {"cylinder",   1,    unit_bounds},
+    [WF_CONE]       = {"cone",       1,    unit_bounds},
+    [WF_TORUS]      = {"torus",      2,    torus_bounds},
+    [WF_HALFSPACE]  = {"halfspace",  1,    halfspace_bounds},
+    [WF_QUADRIC]    = {"quadric",    2,    endless_bounds},
+    [WF_POLYHEDRON] = {"polyhedron", 1,    polyhedron_bounds},
 };
+/* clang-format on */
 
 const wf_solid_type *wf_solid_type_of(wf_solid_kind kind) {
     return &types[kind];

@@ -149,11 +149,13 @@ static void draw_grid(const wf_sampler *s, const uint32_t seed[3], float *const 
     }
 }
 
+typedef void draw_fn(const wf_sampler *s, const uint32_t seed[3], float *const out[3]);
+
+static draw_fn *const draw[] = {[WF_SAMPLER_JITTER] = draw_jitter,
+                                [WF_SAMPLER_SOBOL] = draw_sobol,
+                                [WF_SAMPLER_GRID] = draw_grid};
+
 void wf_sampler_draw(const wf_sampler *s, wf_cell cell, float *x, float *y, float *f) {
-    static void (*const draw[])(const wf_sampler *, const uint32_t[3],
-                                float *const[3]) = {[WF_SAMPLER_JITTER] = draw_jitter,
-                                                    [WF_SAMPLER_SOBOL] = draw_sobol,
-                                                    [WF_SAMPLER_GRID] = draw_grid};
     uint32_t seed[3];
     float *const out[3] = {x, y, f};
     find_seeds(s, cell, seed);

@@ -153,12 +153,12 @@ static wf_bounds drift(const wf_ready_op *r, double from, double to, wf_bounds b
     return wf_bounds_unite(place(&first, b), place(&last, b));
 }
 
+typedef wf_bounds move_fn(const wf_ready_op *op, double from, double to, wf_bounds b);
+
+static move_fn *const move[] = {
+    [WF_OP_PLACE] = drift, [WF_OP_VELOCITY] = drift, [WF_OP_SPIN] = spin, [WF_OP_KEYS] = keyed};
+
 wf_bounds wf_bounds_move(const wf_ready_op *r, double from, double to, wf_bounds b) {
-    static wf_bounds (*const move[])(const wf_ready_op *, double, double,
-                                     wf_bounds) = {[WF_OP_PLACE] = drift,
-                                                   [WF_OP_VELOCITY] = drift,
-                                                   [WF_OP_SPIN] = spin,
-                                                   [WF_OP_KEYS] = keyed};
     if (wf_bounds_empty(&b)) return b;
     if (!wf_bounds_finite(&b) && r->op->kind != WF_OP_PLACE) return all();
     return move[r->op->kind](r, from, to, b);
