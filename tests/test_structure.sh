@@ -86,8 +86,9 @@ convert/media/oiio  : filters/* convert/base convert/job convert/media
 convert/media/libav : filters/* color/* convert/base convert/job convert/media
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/*
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
-convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write
-convert/check       : filters/* color/* convert/base convert/job convert/media convert/read convert/run
+convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
+convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/finish
+convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/run convert/check convert/plot
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check

@@ -1,3 +1,4 @@
+/* What a television shows: video through a composite coder and decoder, frame by frame. */
 #include "convert/run/broadcast.h"
 
 #include <stdio.h>
@@ -11,8 +12,8 @@
 #include "convert/read/signal.h"
 #include "convert/read/television.h"
 #include "convert/read/video.h"
-#include "convert/run/frames.h"
-#include "convert/run/overwrite_check.h"
+#include "convert/finish/frames.h"
+#include "convert/finish/overwrite_check.h"
 
 /* ---- Rasters ---- */
 
@@ -60,15 +61,16 @@ typedef struct run {
     wf_signal *signal;
     wf_composite *coder;
     float *composite, *scratch;
+    int64_t field; /* in hand */
     wf_setup setup;
+    wf_crew crew;
     wf_frames *frames;
-    wf_finisher finisher;
 } run;
 
 static void release(run *r) {
-    wf_finisher_free(&r->finisher);
     wf_frames_free(r->frames);
     wf_setup_free(&r->setup);
+    wf_crew_free(&r->crew);
     free(r->composite);
     free(r->scratch);
     wf_composite_free(r->coder);
@@ -111,18 +113,17 @@ static weft_status protect_input(run *r, weft_error *err) {
 
 static weft_status open_output(run *r, weft_error *err) {
     int64_t frames = wf_video_info_of(r->video)->frames;
-    weft_status status = wf_setup_sink(r->job, &r->setup, err);
+    weft_status status = wf_setup_video(r->job, &r->setup, err);
     if (status) return status;
     if (frames < 0 && r->setup.output.kind->sequence && !wf_pattern_is(r->job->output))
         return wf_fail(err, WEFT_USAGE,
                        "%.500s: each frame is a file; say where its number goes, such as "
                        "out.####.%s",
                        r->job->output, r->setup.output.kind->endings);
-    r->setup.end_frame = frames < 0 ? 0 : frames;
-    wf_setup_count_frames(&r->setup);
+    r->setup.end_frame = r->crew.total = frames < 0 ? 0 : frames;
+    wf_setup_tell_frames(&r->setup);
     status = protect_input(r, err);
-    if (!status) status = wf_frames_new(r->job, &r->setup, 2, &r->frames, err);
-    if (!status) status = wf_finisher_new(r->frames, &r->finisher, err);
+    if (!status) status = wf_frames_new(&r->crew, &r->setup, 2, &r->frames, err);
     return status ? status : wf_frames_open(r->frames, err);
 }
 
@@ -141,30 +142,32 @@ static weft_status make_coder(run *r, const wf_tv *tv, weft_error *err) {
 
 /* ---- Frames ---- */
 
-/* Line `line` of a field, 0 or 1, of the picture that is shown. */
-static void finish_line(run *r, int64_t field, int line) {
+/* Line `line` of the field in hand, of the picture that is shown. */
+static void finish_line(void *user, wf_worker *worker, int line) {
+    const run *r = user;
     const wf_raster *raster = &r->job->raster;
     size_t width = (size_t)raster->width_px;
-    int y = wf_raster_parity(raster, field) + line * wf_raster_line_step(raster);
+    int y = wf_raster_parity(raster, r->field) + line * wf_raster_line_step(raster);
     float *rgb[3];
-    wf_frames_room(r->frames, &r->finisher, field, line, rgb);
+    wf_frames_place(r->frames, worker, r->field, line, rgb);
     for (int p = 0; p < 3; p++)
         memcpy(rgb[p], r->signal->ycbcr[p] + (size_t)y * width, width * sizeof **rgb);
     wf_rgb_of_ycbcr(WF_LUMA_601, rgb[0], rgb[1], rgb[2], width);
-    wf_frames_line(r->frames, &r->finisher, field, line);
+    wf_frames_line(r->frames, worker, r->field, line);
 }
 
 static weft_status show_frame(run *r, const wf_video_frame *frame, weft_error *err) {
     const wf_raster *raster = &r->job->raster;
+    int fields = wf_raster_fields_per_frame(raster);
     wf_signals_take(r->signals, frame, r->signal);
     wf_composite_encode(r->coder, frame->index, r->signal->ycbcr, r->composite, r->scratch);
     wf_composite_decode(r->coder, frame->index, r->composite, r->signal->ycbcr, r->scratch);
-    int fields = wf_raster_fields_per_frame(raster);
-    for (int64_t n = frame->index * fields; n < (frame->index + 1) * fields; n++) {
-        int lines = wf_raster_field_lines(raster, wf_raster_parity(raster, n));
-        for (int line = 0; line < lines; line++) finish_line(r, n, line);
+    for (r->field = frame->index * fields; r->field < (frame->index + 1) * fields; r->field++) {
+        int lines = wf_raster_field_lines(raster, wf_raster_parity(raster, r->field));
+        wf_crew_each(&r->crew, lines, 4, finish_line, r);
     }
-    return wf_frames_write(r->frames, frame->index, err);
+    weft_status status = wf_crew_status(&r->crew, err);
+    return status ? status : wf_frames_write(r->frames, frame->index, err);
 }
 
 static weft_status show_all(run *r, weft_error *err) {
@@ -173,7 +176,6 @@ static weft_status show_all(run *r, weft_error *err) {
     if (!status && !frame)
         return wf_fail(err, WEFT_FAILED, "%.500s: there is no frame in it", r->job->inputs[0]);
     while (!status && frame) {
-        if (r->job->cancelled) return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
         status = show_frame(r, frame, err);
         if (!status) status = wf_video_next(r->video, &frame, err);
     }
@@ -184,6 +186,7 @@ weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error 
     run r = {.job = job};
     wf_tv tv;
     weft_status status = wf_job_check(job, err);
+    if (!status) status = wf_crew_new(job, 0, &r.crew, err);
     if (!status) status = refuse_linear(job, err);
     if (!status) status = open_video(&r, set, err);
     if (!status) status = settle_tv(job, set, &tv, err);

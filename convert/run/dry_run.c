@@ -1,4 +1,4 @@
-/* --dry-run: seeing what would be done. */
+/* --dry-run: finding out what would be done. */
 #include "convert/run/dry_run.h"
 
 #include <stdio.h>
@@ -6,26 +6,28 @@
 #include <sys/stat.h>
 
 #include "convert/base/pattern.h"
-#include "convert/read/sequence.h"
 #include "convert/run/dry_run_parts.h"
+#include "convert/run/needs.h"
+#include "filters/raster/timing.h"
 
-void wf_foreseen_free(wf_foreseen *f) {
-    if (f) free(f->fields);
-    free(f);
+void wf_dry_run_free(wf_dry_run *d) {
+    if (d) free(d->fields);
+    free(d);
 }
 
-static const wf_raster *raster_of(const wf_foresee_desc *d) {
-    return d->setup->output_options.raster;
+static const wf_raster *raster_of(const wf_run *run) {
+    return run->setup.output_options.raster;
 }
 
 /* ---- Fields ---- */
 
 /* Fields look at the same times whatever there is to see. */
-static weft_status see_times(const wf_foresee_desc *d, wf_timing *timing, weft_error *err) {
-    const wf_gather_desc gather = wf_setup_gather(d->job);
+static weft_status find_times(const wf_run *run, wf_timing *timing, weft_error *err) {
+    const wf_gather_desc gather = wf_setup_gather(run->job);
+    const wf_raster *raster = raster_of(run);
     const wf_timing_desc desc = {
-        .raster = raster_of(d),
-        .subframe_rate = wf_ratio_div(wf_ratio(1, 1), wf_raster_field_period(raster_of(d))),
+        .raster = raster,
+        .subframe_rate = wf_ratio_div(wf_ratio(1, 1), wf_raster_field_period(raster)),
         .subframes = 1,
         .width = gather.width,
         .position = gather.position,
@@ -35,129 +37,137 @@ static weft_status see_times(const wf_foresee_desc *d, wf_timing *timing, weft_e
     return wf_fail(err, WEFT_FAILED, "%s", why);
 }
 
-static void see_field(wf_foreseen *f, const wf_foresee_desc *d, const wf_timing *timing,
-                      int64_t n) {
-    wf_seen_field field = {.index = n};
-    wf_timing_seconds(timing, n, raster_of(d)->lines, &field.from_s, &field.to_s);
-    if (d->pipeline) field.window = wf_resampler_window(d->setup->resampler, n);
-    for (int64_t k = 0; k < field.window.count; k++)
-        field.missing += !d->setup->sequence.refs[field.window.first + k].path;
-    f->fields[f->field_count++] = field;
+static void add_field(wf_dry_run *d, const wf_run *run, const wf_timing *timing, int64_t n) {
+    wf_dry_field field = {.index = n};
+    wf_timing_seconds(timing, n, raster_of(run)->lines, &field.from_s, &field.to_s);
+    if (d->reads) field.needs = run->kind->needs(run, n);
+    for (int64_t k = field.needs.first; k < field.needs.end; k++)
+        field.missing += !run->setup.sequence.refs[k].path;
+    d->fields[d->field_count++] = field;
 }
 
-/* ---- Scenes ---- */
-
-/* As many as the units that fields need, each of them once; *next is past those counted. */
-static void see_samples(wf_foreseen *f, const wf_foresee_desc *d, int64_t field,
-                        int64_t *next) {
-    const wf_raster *r = &d->job->raster;
-    int64_t first, last;
-    wf_sampling_units(d->sampling, field, &first, &last);
-    if (first < *next) first = *next;
-    if (last >= first)
-        f->samples += (last - first + 1) * d->job->samples * r->width_px * r->lines;
-    if (last >= *next) *next = last + 1;
+/* Adds the samples of the units that a field needs and no field before it did. */
+static void add_samples(wf_dry_run *d, const wf_run *run, int64_t field, int64_t *next) {
+    wf_needs needs = run->kind->needs(run, field);
+    if (needs.first < *next) needs.first = *next;
+    if (needs.end <= needs.first) return;
+    d->samples += (needs.end - needs.first) * run->kind->samples_a_unit(run);
+    *next = needs.end;
 }
 
 /* ---- Files ---- */
 
-static void see_inputs(wf_foreseen *f, const wf_foresee_desc *d, const bool *needed) {
-    const wf_sequence *sequence = &d->setup->sequence;
+static void add_opened(wf_dry_run *d, const wf_run *run, int64_t first, int64_t past,
+                       bool *needed) {
+    wf_walk walk = wf_walk_begin();
+    wf_units units;
+    for (int64_t n = first, end; n < past; n = end) {
+        end = wf_walk_group_end(run, n, past);
+        wf_walk_group(run, &walk, n, end);
+        while (wf_walk_units(run, &walk, &units))
+            d->opened += run->kind->opens(run, &units, needed);
+    }
+}
+
+static void add_inputs(wf_dry_run *d, const wf_run *run, const bool *needed) {
+    const wf_sequence *sequence = &run->setup.sequence;
     const wf_subframe_ref *refs = sequence->refs;
     struct stat about;
     for (size_t k = 0; k < sequence->count; k++) {
         if (!needed[k]) continue;
         bool again = k && refs[k].part >= 0 && needed[k - 1]; /* parts of one file */
         if (again || stat(refs[k].path, &about)) continue;
-        f->files++;
-        f->read_bytes += about.st_size;
+        d->files++;
+        d->read_bytes += about.st_size;
     }
 }
 
-static void name_output(const wf_foresee_desc *d, int64_t number, char path[PATH_MAX]) {
-    const char *output = d->job->output;
-    bool named = d->setup->output.kind->sequence && wf_pattern_is(output) &&
+static void name_output(const wf_run *run, int64_t number, char path[PATH_MAX]) {
+    const char *output = run->job->output;
+    bool named = run->setup.output.kind->sequence && wf_pattern_is(output) &&
                  wf_pattern_path(output, number, path, PATH_MAX);
     if (!named) snprintf(path, PATH_MAX, "%s", output);
 }
 
-static void see_present(wf_foreseen *f, const wf_foresee_desc *d) {
-    const wf_setup *s = d->setup;
+static void find_present(wf_dry_run *d, const wf_run *run) {
+    const wf_setup *s = &run->setup;
     int files = wf_output_files(&s->output_options);
-    f->kind = s->output.kind->name;
+    d->kind = s->output.kind->name;
     if (!s->output.kind->sequence)
-        f->present = wf_output_present(s->output.kind, d->job->output, -1);
+        d->present = wf_output_present(s->output.kind, run->job->output, -1);
     for (int64_t n = s->first_frame * files;
          s->output.kind->sequence && n < s->end_frame * files; n++)
-        f->present += wf_output_present(s->output.kind, d->job->output, n);
+        d->present += wf_output_present(s->output.kind, run->job->output, n);
 }
 
 /* ---- All of it ---- */
 
-static void see_frames(wf_foreseen *f, const wf_foresee_desc *d, const wf_timing *timing,
-                       bool *needed) {
-    const wf_setup *s = d->setup;
-    int per_frame = wf_raster_fields_per_frame(raster_of(d));
-    int files = wf_output_files(&s->output_options);
+static void add_fields(wf_dry_run *d, const wf_run *run, const wf_timing *timing, int64_t first,
+                       int64_t end, bool *needed) {
+    int per_frame = wf_raster_fields_per_frame(raster_of(run));
     int64_t next = INT64_MIN;
-    for (int64_t n = s->first_frame, end; wf_next_frames(d->job, s, &n, &end); n = end) {
-        if (d->pipeline) wf_pipeline_foresee(d->pipeline, n, end, needed);
-        for (int64_t k = n * per_frame; !d->pictures && k < end * per_frame; k++) {
-            see_field(f, d, timing, k);
-            if (d->sampling) see_samples(f, d, k, &next);
-        }
-        if (!f->frames) name_output(d, n * files, f->first_output);
-        name_output(d, end * files - 1, f->last_output);
-        f->frames += end - n;
+    if (d->reads) add_opened(d, run, first * per_frame, end * per_frame, needed);
+    for (int64_t k = first * per_frame; k < end * per_frame; k++) {
+        add_field(d, run, timing, k);
+        if (run->kind->samples_a_unit) add_samples(d, run, k, &next);
     }
-    f->outputs = !f->frames ? 0 : s->output.kind->sequence ? f->frames * files : 1;
-    if (d->pictures)
-        f->samples = f->frames * (int64_t)raster_of(d)->width_px * raster_of(d)->lines;
+}
+
+static void add_frames(wf_dry_run *d, const wf_run *run, const wf_timing *timing, bool pictures,
+                       bool *needed) {
+    const wf_setup *s = &run->setup;
+    int files = wf_output_files(&s->output_options);
+    for (int64_t n = s->first_frame, end; wf_frames_next(run->job, s, &n, &end); n = end) {
+        if (!pictures) add_fields(d, run, timing, n, end, needed);
+        if (!d->frames) name_output(run, n * files, d->first_output);
+        name_output(run, end * files - 1, d->last_output);
+        d->frames += end - n;
+    }
+    d->outputs = !d->frames ? 0 : s->output.kind->sequence ? d->frames * files : 1;
+    if (pictures)
+        d->samples = d->frames * (int64_t)raster_of(run)->width_px * raster_of(run)->lines;
 }
 
 /* Samples are R G B t x y in float, behind a table of how many each pixel has. */
-static wf_sink_size deep_size(const wf_foreseen *f, const wf_raster *r) {
+static wf_sink_size deep_size(const wf_dry_run *d, const wf_raster *r) {
     int64_t table = 4 * (int64_t)r->width_px * r->lines;
-    return (wf_sink_size){24 * f->samples + f->frames * (4096 + table), WF_SIZE_MOST};
+    return (wf_sink_size){24 * d->samples + d->frames * (4096 + table), WF_SIZE_MOST};
 }
 
-static wf_sink_size see_size(const wf_foreseen *f, const wf_foresee_desc *d) {
-    if (d->job->command == WF_TRACE && !d->pictures) return deep_size(f, raster_of(d));
-    return wf_output_size(&d->setup->output, &d->setup->output_options, f->frames);
+static wf_sink_size find_size(const wf_dry_run *d, const wf_run *run, bool pictures) {
+    if (run->job->command == WF_TRACE && !pictures) return deep_size(d, raster_of(run));
+    return wf_output_size(&run->setup.output, &run->setup.output_options, d->frames);
 }
 
-static weft_status see(wf_foreseen *f, const wf_foresee_desc *d, weft_error *err) {
-    const wf_setup *s = d->setup;
+static weft_status find_all(wf_dry_run *d, const wf_run *run, bool pictures, weft_error *err) {
+    const wf_setup *s = &run->setup;
     size_t most = (size_t)((s->end_frame - s->first_frame) * 2) + 1;
     bool *needed = calloc(s->sequence.count + 1, sizeof *needed);
-    f->fields = d->pictures ? NULL : calloc(most, sizeof *f->fields);
+    d->fields = pictures ? NULL : calloc(most, sizeof *d->fields);
     wf_timing timing;
-    weft_status status = needed && (f->fields || d->pictures)
-                             ? see_times(d, &timing, err)
+    weft_status status = needed && (d->fields || pictures)
+                             ? find_times(run, &timing, err)
                              : wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
-    see_present(f, d);
-    bool done = d->job->resume && !s->output.kind->sequence && f->present;
-    if (!status && !done) see_frames(f, d, &timing, needed);
-    if (!status && f->frames) f->size = see_size(f, d);
-    if (!status && d->pipeline) see_inputs(f, d, needed);
+    find_present(d, run);
+    if (!status && !wf_frames_all_there(run->job, s))
+        add_frames(d, run, &timing, pictures, needed);
+    if (!status && d->frames) d->size = find_size(d, run, pictures);
+    if (!status && d->reads) add_inputs(d, run, needed);
     free(needed);
     return status;
 }
 
-weft_status wf_foresee(const wf_foresee_desc *d, wf_report *report, weft_error *err) {
-    wf_foreseen *f = calloc(1, sizeof *f);
-    report->plan = f;
-    if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
-    f->reads = d->pipeline != NULL;
-    weft_status status = see(f, d, err);
+weft_status wf_dry_run_make(wf_run *run, bool pictures, weft_error *err) {
+    wf_dry_run *d = calloc(1, sizeof *d);
+    run->report->plan = d;
+    if (!d) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
+    d->reads = run->kind->opens != NULL;
+    d->memory_bytes = run->pace.memory_bytes;
+    d->threads = run->crew.threads;
+    weft_status status = find_all(d, run, pictures, err);
     if (status) return status;
-    if (!(d->sampling || d->pictures) || wf_ratio_given(d->job->error)) f->samples = -1;
-    if (d->pipeline) {
-        f->opened = d->pipeline->opened;
-        d->pipeline->opened = 0;
-        f->memory_bytes = d->pipeline->bytes;
-        f->threads = d->pipeline->threads;
-    }
-    report->add_plan = wf_foreseen_json;
-    return wf_foreseen_text(f, d->job, err);
+    bool traced = pictures || run->kind->samples_a_unit;
+    if (!traced || wf_ratio_given(run->job->error)) d->samples = -1;
+    run->report->add_plan = wf_dry_run_json;
+    return wf_dry_run_text(d, run->job, err);
 }

@@ -1,24 +1,17 @@
 #ifndef WF_CONVERT_RUN_DRY_RUN_H
 #define WF_CONVERT_RUN_DRY_RUN_H
 
-#include "convert/job/report.h"
-#include "convert/run/pipeline.h"
-#include "tracer/sample/sampling.h"
+#include "convert/run/run.h"
 
-/* --dry-run: what a job would do. */
-typedef struct wf_foreseen wf_foreseen;
+/* --dry-run: what a run would do. Nothing is read but headers, and nothing is written. */
 
-typedef struct wf_foresee_desc {
-    weft_job *job;
-    const wf_setup *setup;       /* its frames, sink and the sink's options */
-    wf_pipeline *pipeline;       /* of subframes; NULL: there are none */
-    const wf_sampling *sampling; /* of a scene; NULL: there is none */
-    bool pictures;               /* what is made are subframes, not frames of fields */
-} wf_foresee_desc;
+/* Puts what the run would do into its report, as "plan", and for people into its job. The run
+ * is ready to begin: what its source needs is known, and its pace where it opens files.
+ * pictures: it makes subframes, of setup.output_options.raster, and no fields. */
+weft_status wf_dry_run_make(wf_run *run, bool pictures, weft_error *err);
 
-/* Puts the plan into the report, as "plan", and for people into the job. Nothing is read or
- * written. */
-weft_status wf_foresee(const wf_foresee_desc *desc, wf_report *report, weft_error *err);
-void wf_foreseen_free(wf_foreseen *foreseen); /* NULL is fine */
+/* Frees the report's plan; NULL is fine. */
+typedef struct wf_dry_run wf_dry_run;
+void wf_dry_run_free(wf_dry_run *dry_run);
 
 #endif

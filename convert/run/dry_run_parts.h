@@ -5,31 +5,31 @@
 
 #include "convert/run/dry_run.h"
 
-/* What foresee.c sees and foresee_tell.c tells. */
-typedef struct wf_seen_field {
+/* What dry_run.c finds and dry_run_tell.c tells. */
+typedef struct wf_dry_field {
     int64_t index;
     double from_s, to_s; /* its window of time */
-    wf_window window;    /* of subframes */
+    wf_needs needs;      /* subframes */
     int64_t missing;     /* of them */
-} wf_seen_field;
+} wf_dry_field;
 
-struct wf_foreseen {
-    wf_seen_field *fields;
+struct wf_dry_run {
+    wf_dry_field *fields; /* NULL: it makes subframes */
     size_t field_count;
     int64_t frames;
-    bool reads; /* subframes: */
+    bool reads; /* files, which are known: */
     int64_t opened, files, read_bytes;
-    int64_t samples; /* of a scene; < 0: not known */
+    size_t memory_bytes;
+    int threads;
+    int64_t samples; /* to be traced; < 0: not known */
     int64_t outputs, present;
     char first_output[PATH_MAX], last_output[PATH_MAX];
     wf_sink_size size;
-    size_t memory_bytes; /* 0: not known */
-    int threads;         /* 0: not known */
-    const char *kind;    /* of output */
+    const char *kind; /* of output */
 };
 
 /* For people, into job->plan; and for the report. */
-weft_status wf_foreseen_text(const wf_foreseen *foreseen, weft_job *job, weft_error *err);
-void wf_foreseen_json(wf_json *json, const void *foreseen);
+weft_status wf_dry_run_text(const wf_dry_run *dry_run, weft_job *job, weft_error *err);
+void wf_dry_run_json(wf_json *json, const void *dry_run);
 
 #endif

@@ -1,22 +1,26 @@
-/* The door for renderers (weft.h, Samples from a renderer). */
+/* Samples that a renderer hands over (weft.h, Samples from a renderer): a run without a source,
+ * whose fields are finished when its caller says that nothing more comes for them. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/run/frames.h"
+#include "convert/finish/frames.h"
+#include "convert/run/gathered_line.h"
+#include "filters/raster/timing.h"
 
 struct weft_fields {
     weft_job *job;
     weft_field_fn *fn;
     void *user;
     wf_setup setup;
+    wf_crew crew;      /* of one: whoever pushes is the one thread */
     wf_frames *frames; /* NULL: the job has no output */
-    wf_finisher finisher;
     wf_gather_desc desc;
     wf_gather **gather; /* [end]: NULL before a field's first sample and after it is finished */
     int64_t next, end;  /* the first that is not finished; how many there are */
     size_t in_hand;     /* gathers */
+    int64_t filled;     /* pixels that no sample reached */
     float *rgb;         /* [lines][width][3] of a field */
     float *line;        /* [3][width] */
 };
@@ -26,15 +30,14 @@ struct weft_fields {
 static weft_status open_output(weft_fields *f, int64_t frames, weft_error *err) {
     if (!f->job->output) return WEFT_OK;
     weft_status status = wf_setup_output(f->job, &f->setup, err);
-    f->setup.end_frame = frames;
     if (status) return status;
-    wf_setup_count_frames(&f->setup);
-    status = wf_frames_new(f->job, &f->setup, 2, &f->frames, err);
-    if (!status) status = wf_finisher_new(f->frames, &f->finisher, err);
+    f->setup.end_frame = f->crew.total = frames;
+    wf_setup_tell_frames(&f->setup);
+    status = wf_frames_new(&f->crew, &f->setup, 2, &f->frames, err);
     return status ? status : wf_frames_open(f->frames, err);
 }
 
-static weft_status make_room(weft_fields *f, weft_error *err) {
+static weft_status make_buffers(weft_fields *f, weft_error *err) {
     size_t row = 3 * (size_t)f->job->raster.width_px;
     f->gather = calloc((size_t)f->end + 1, sizeof(wf_gather *));
     f->rgb = malloc(row * (size_t)f->job->raster.lines * sizeof *f->rgb);
@@ -59,7 +62,8 @@ weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, vo
     *f = (weft_fields){.job = job, .fn = fn, .user = user};
     f->desc = wf_setup_gather(job);
     f->end = frames * wf_raster_fields_per_frame(&job->raster);
-    weft_status status = make_room(f, err);
+    weft_status status = wf_crew_new(job, 1, &f->crew, err);
+    if (!status) status = make_buffers(f, err);
     if (!status) status = open_output(f, frames, err);
     if (status) {
         weft_fields_free(f);
@@ -73,8 +77,8 @@ void weft_fields_free(weft_fields *f) {
     if (!f) return;
     for (int64_t n = 0; f->gather && n < f->end; n++) wf_gather_free(f->gather[n]);
     wf_frames_free(f->frames);
-    wf_finisher_free(&f->finisher);
     wf_setup_free(&f->setup);
+    wf_crew_free(&f->crew);
     free(f->gather);
     free(f->rgb);
     free(f->line);
@@ -172,47 +176,30 @@ weft_status weft_fields_push_tile(weft_fields *f, const weft_tile *tile, weft_er
 
 /* ---- Fields ---- */
 
-static weft_status fill_empty(const weft_fields *f, int64_t field, int line, int first,
-                              weft_error *err) {
-    const wf_gather *gather = f->gather[field];
-    int width = f->job->raster.width_px;
-    if (f->job->on_empty == WF_EMPTY_ERROR)
-        return wf_fail(err, WEFT_FAILED,
-                       "field %" PRId64 ", line %d, pixel %d: no sample reached it; give more "
-                       "samples, or set on-empty to nearest",
-                       field, line, first);
-    for (int i = first; i < width; i++) {
-        float near[3];
-        if (wf_gather_reached(gather, line, i)) continue;
-        if (!wf_gather_nearest(gather, line, i, near))
-            return wf_fail(err, WEFT_FAILED, "field %" PRId64 ": no sample reached it", field);
-        for (int c = 0; c < 3; c++) f->line[c * width + i] = near[c];
-    }
-    return WEFT_OK;
-}
-
+/* Keeps a line for whoever is handed the field, and takes it through color into its frame. */
 static void keep_line(const weft_fields *f, int64_t field, int line) {
     int width = f->job->raster.width_px;
     float *out = f->rgb + 3 * (size_t)line * (size_t)width, *rgb[3];
     for (int i = 0; i < width; i++)
         for (int c = 0; c < 3; c++) out[3 * i + c] = f->line[c * width + i];
     if (!f->frames) return;
-    wf_frames_room(f->frames, &f->finisher, field, line, rgb);
+    wf_frames_place(f->frames, f->crew.workers, field, line, rgb);
     for (int c = 0; c < 3; c++)
         memcpy(rgb[c], f->line + c * width, (size_t)width * sizeof(float));
+    wf_frames_line(f->frames, f->crew.workers, field, line);
 }
 
 static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) {
     size_t width = (size_t)f->job->raster.width_px;
     float *const rgb[3] = {f->line, f->line + width, f->line + 2 * width};
-    for (int l = 0; l < lines_of(f, field); l++) {
-        int empty = wf_gather_line(f->gather[field], l, rgb);
-        weft_status status = empty < 0 ? WEFT_OK : fill_empty(f, field, l, empty, err);
-        if (status) return status;
-        keep_line(f, field, l);
-        if (f->frames) wf_frames_line(f->frames, &f->finisher, field, l);
+    weft_status status = WEFT_OK;
+    for (int l = 0; !status && l < lines_of(f, field); l++) {
+        const wf_gathered_line line = {f->job, f->gather[field],         field, l,
+                                       l,      "set on-empty to nearest"};
+        status = wf_gathered_finish(&line, rgb, &f->filled, err);
+        if (!status) keep_line(f, field, l);
     }
-    return WEFT_OK;
+    return status;
 }
 
 static weft_status finish_field(weft_fields *f, weft_error *err) {

@@ -3,51 +3,67 @@
 
 #include <stdatomic.h>
 
-#include "convert/run/frames.h"
+#include "convert/run/run.h"
+#include "convert/run/tile_cache.h"
 #include "filters/gather/samples.h"
 
-/* From samples to frames: whoever has samples gives them unit by unit of time and band by band
- * of rows; fields gather them and are finished when their last unit is done. */
+/* Fields summed from samples: a unit of time is turned to, and its samples are handed over band
+ * by band of frame rows. */
 
-/* A source of samples. Functions but `band` are called by one thread. */
-typedef struct wf_sample_source {
-    void *self;
-    wf_sample_tiling tiling; /* how it hands them over; count 0: not in tiles */
-    /* Units first <= u <= *last whose samples a field may need. */
-    void (*units)(void *self, int64_t field, int64_t *first, int64_t *last);
-    /* Turns to a unit; an absent one is an error or has no samples. */
-    weft_status (*begin)(void *self, int64_t unit, weft_error *err);
-    /* Of a source with tiles: whether fields that need this unit see nothing move; and whether
-     * a field sees a unit from its beginning to its end, and one moment of it as well as
-     * another. */
-    bool (*still)(void *self);
-    bool (*whole)(void *self, int64_t field, int64_t unit);
-    /* Hands over the samples of rows first <= j < end; thread: whose buffers to use. */
-    weft_status (*band)(void *self, int thread, int first, int end, const wf_receiver *receiver,
-                        weft_error *err);
-} wf_sample_source;
+/* How a source's samples are read. */
+typedef struct wf_sample_reading {
+    /* Turns to a unit; an absent one is an error or has no samples. By one thread. */
+    weft_status (*turn)(wf_run *run, int64_t unit, weft_error *err);
+    /* Hands over the unit's samples of rows first <= j < end, with the worker's own buffers. */
+    weft_status (*band)(wf_run *run, const wf_worker *worker, int first, int end,
+                        const wf_receiver *receiver, weft_error *err);
 
-typedef struct wf_gathering wf_gathering;
+    /* Of a source that hands its samples over in tiles, others leave these NULL: how the raster
+     * is cut; whether fields that need the unit see nothing move; and whether a field sees a
+     * unit from its beginning to its end, and one moment of it as well as another. */
+    wf_sample_tiling (*tiling)(const wf_run *run);
+    bool (*still)(const wf_run *run);
+    bool (*whole)(const wf_run *run, int64_t field, int64_t unit);
+} wf_sample_reading;
 
-weft_status wf_gathering_new(weft_job *job, const wf_setup *setup,
-                             const wf_sample_source *source, wf_gathering **out,
-                             weft_error *err);
-void wf_gathering_free(wf_gathering *gathering);
+extern const wf_summing wf_summing_samples;
 
-/* Makes the frames of the setup and writes them. */
-weft_status wf_gathering_run(wf_gathering *gathering, weft_error *err);
+/* ---- Between the files of gathering ---- */
 
-/* What a report tells: frames made and time spent (seconds of all threads together). */
-typedef struct wf_gathering_counts {
-    int64_t frames;
-    double source_s, resample_s, color_s, write_s;
-    int64_t pixels_filled;               /* that no sample reached: --on-empty nearest */
+/* Rows that one thread gathers into sums of its own. Sums are added to the fields' in the order
+ * of the bands, so that the bits do not depend on the threads. */
+enum { WF_GATHER_ROWS = 16 };
+
+/* A field that gathers samples. */
+typedef struct wf_gathered {
+    wf_gather *sums;
+    bool still;   /* it sees nothing move: others of its parity look the same */
+    bool follows; /* one of them, before it, gathers for both */
+    bool kept;    /* and has: the sums are borrowed */
+} wf_gathered;
+
+/* run->sums. */
+typedef struct wf_gathering {
+    wf_gather_desc desc;
+    wf_sample_tiling tiling; /* count 0: not in tiles */
+    wf_gathered *flight;     /* fields flight_first on, flight_most at most */
+    int64_t flight_first;
+    int flight_count, flight_most;
+    _Atomic int64_t filled; /* pixels that no sample reached: --on-empty nearest */
+
+    /* What is still is kept: whole fields, one of each parity, and tiles. */
+    bool keeps;
+    int *way; /* [units of a field, from its last]: those of one number it sees alike; of a
+                 source with tiles */
+    int ways;
+    wf_gather *kept[2];
+    wf_tile_cache cache;
+    wf_taker *takers; /* [most_takers] of the unit in hand */
+    int taker_count, most_takers;
     int64_t tiles_reused, fields_reused; /* that were still and had been gathered before */
-} wf_gathering_counts;
+} wf_gathering;
 
-/* Adds to legal what r103 has done to the codes of the frames written. */
-void wf_gathering_tell_legal(const wf_gathering *gathering, wf_report_legal *legal);
-wf_gathering_counts wf_gathering_counted(const wf_gathering *gathering);
-int wf_gathering_threads(const weft_job *job);
+/* wf_summing's add. (gathering_bands.c) */
+weft_status wf_gathering_add(wf_run *run, const wf_units *units, weft_error *err);
 
 #endif

@@ -1,167 +1,162 @@
-#include <stdio.h>
+/* A job from beginning to end:
+ * job -> source -> needs of field n -> accumulate -> color -> chroma -> quantise -> sink. */
+#include "convert/run/run.h"
+
 #include <stdlib.h>
 
 #include "color/codes/r103.h"
-#include "convert/run/deep_source.h"
+#include "convert/base/clock.h"
 #include "convert/run/dry_run.h"
-#include "convert/run/overwrite_check.h"
-#include "convert/run/pipeline.h"
-#include "convert/run/render.h"
+#include "convert/run/needs.h"
+#include "convert/finish/overwrite_check.h"
+#include "convert/run/trace.h"
 
-/* ---- Missing subframes ---- */
+/* ---- Fields ---- */
 
-/* The numbers of the selection that have no file. */
-static wf_rational *list_missing(const wf_sequence *sequence) {
-    wf_rational *numbers = malloc((sequence->missing + 1) * sizeof *numbers);
-    size_t n = 0;
-    for (size_t k = 0; numbers && k < sequence->count; k++)
-        if (!sequence->refs[k].path) numbers[n++] = sequence->refs[k].number;
-    return numbers;
-}
+/* The fields of one run of frames, none of which is left out. */
+typedef struct flight {
+    int64_t next; /* the next field to be put in flight */
+    int64_t past; /* the end of the last */
+    wf_walk walk; /* through the units that they need */
+} flight;
 
-static void number_text(wf_rational number, char *text, size_t size) {
-    if (number.den == 1)
-        snprintf(text, size, "%lld", (long long)number.num);
-    else
-        snprintf(text, size, "%.9g", wf_ratio_value(number));
-}
-
-/* How many missing subframes the fields of this chunk need; *first is the first of them. */
-static size_t count_needed(const wf_setup *s, const weft_job *job, int64_t *first) {
-    int per_frame = wf_raster_fields_per_frame(&job->raster);
-    size_t needed = 0;
-    int64_t k = 0;
-    for (int64_t n = s->first_frame * per_frame; n < s->end_frame * per_frame; n++) {
-        wf_window window = wf_resampler_window(s->resampler, n);
-        for (k = k > window.first ? k : window.first; k < window.first + window.count; k++)
-            if (!s->sequence.refs[k].path && !needed++) *first = k;
-    }
-    return needed;
-}
-
-static weft_status face_missing(weft_job *job, const wf_setup *s, bool *degraded,
-                                weft_error *err) {
-    int64_t first = 0;
-    size_t needed = s->sequence.missing ? count_needed(s, job, &first) : 0;
-    if (!needed) return WEFT_OK;
-    char number[32];
-    number_text(s->sequence.refs[first].number, number, sizeof number);
-    if (job->on_missing == WF_MISSING_ERROR)
-        return wf_fail(
-            err, WEFT_FAILED,
-            "%s: subframe %s is missing (%zu of the %zu selected are missing and needed); "
-            "render it, or give --on-missing hold or black",
-            job->inputs[0], number, needed, s->sequence.count);
-    *degraded = true;
-    wf_job_warn(
-        job, "%s: %zu missing subframes, the first is %s: %s", job->inputs[0], needed, number,
-        job->on_missing == WF_MISSING_HOLD ? "their neighbours are held" : "they are black");
-    return WEFT_OK;
-}
-
-/* ---- Running ---- */
-
-static bool is_there(const weft_job *job, const wf_setup *s, int64_t frame) {
-    int files = wf_output_files(&s->output_options);
-    for (int n = 0; n < files; n++)
-        if (!wf_output_present(s->output.kind, job->output, frame * files + n)) return false;
-    return true;
-}
-
-bool wf_next_frames(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
-    bool leave_out = job->resume && s->output.kind->sequence;
-    while (leave_out && *first < s->end_frame && is_there(job, s, *first)) ++*first;
-    *end = leave_out && *first < s->end_frame ? *first + 1 : s->end_frame;
-    while (leave_out && *end < s->end_frame && !is_there(job, s, *end)) ++*end;
-    return *first < s->end_frame;
-}
-
-static weft_status convert_frames(wf_pipeline *p, weft_error *err) {
-    int64_t first = p->setup->first_frame, end;
+/* Puts in flight the fields of the group, and later ones that the last of the units belongs to.
+ */
+static weft_status launch(wf_run *run, flight *f, const wf_units *units, weft_error *err) {
+    int64_t last = units->unit[units->count - 1];
+    int64_t most = units->group_end + run->pace.fields_carried;
     weft_status status = WEFT_OK;
-    while (!status && wf_next_frames(p->job, p->setup, &first, &end)) {
-        status = wf_pipeline_frames(p, first, end, err);
+    if (most > f->past) most = f->past;
+    while (!status && f->next < most && run->kind->needs(run, f->next).first <= last)
+        status = run->kind->summing->launch(run, f->next++, err);
+    return status;
+}
+
+/* Reads what fields first <= n < end need and adds it to them, and to those after them that
+ * need it too. */
+static weft_status accumulate(wf_run *run, flight *f, int64_t first, int64_t end,
+                              weft_error *err) {
+    wf_units units;
+    weft_status status = WEFT_OK;
+    wf_walk_group(run, &f->walk, first, end);
+    while (!status && wf_walk_units(run, &f->walk, &units)) {
+        status = launch(run, f, &units, err);
+        if (!status) status = run->kind->summing->add(run, &units, err);
+    }
+    return status;
+}
+
+/* Takes the lines of fields first <= n < end through color, chroma and quantising, and frames
+ * that are whole by that to the sink. */
+static weft_status finish(wf_run *run, int64_t first, int64_t end, weft_error *err) {
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    weft_status status = WEFT_OK;
+    for (int64_t n = first; !status && n < end; n++) {
+        status = run->kind->summing->finish(run, n, err);
+        if (!status && n % per_frame == per_frame - 1)
+            status = wf_frames_write(run->frames, n / per_frame, err);
+    }
+    return status;
+}
+
+/* Makes frames first <= n < end. */
+static weft_status make_frames(wf_run *run, int64_t first, int64_t end, weft_error *err) {
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    flight f = {first * per_frame, end * per_frame, wf_walk_begin()};
+    weft_status status = WEFT_OK;
+    run->kind->summing->drop(run);
+    for (int64_t n = f.next, group_end; !status && n < f.past; n = group_end) {
+        group_end = wf_walk_group_end(run, n, f.past);
+        status = accumulate(run, &f, n, group_end, err);
+        if (!status) status = finish(run, n, group_end, err);
+    }
+    return status;
+}
+
+/* ---- Frames ---- */
+
+static weft_status make_all(wf_run *run, weft_error *err) {
+    int64_t first = run->setup.first_frame, end;
+    weft_status status = wf_frames_open(run->frames, err);
+    while (!status && wf_frames_next(run->job, &run->setup, &first, &end)) {
+        status = make_frames(run, first, end, err);
         first = end;
     }
+    if (!status) status = wf_frames_commit(run->frames, err);
+    run->finished = !status;
     return status;
 }
 
-static weft_status run_with_sink(wf_pipeline *p, weft_error *err) {
-    weft_status status = wf_frames_open(p->frames, err);
-    if (!status) status = convert_frames(p, err);
-    return status ? status : wf_frames_commit(p->frames, err);
+/* Decides all that can be decided before a pixel is read. */
+static weft_status settle(wf_run *run, weft_error *err) {
+    run->kind = wf_source_for(run->job);
+    weft_status status = run->kind->open(run, err);
+    if (!status) status = wf_setup_output(run->job, &run->setup, err);
+    if (!status) status = run->kind->count(run, err);
+    if (!status) status = wf_refuse_own_inputs(run->job, &run->setup, err);
+    run->crew.total = run->setup.end_frame - run->setup.first_frame;
+    return status;
 }
 
-static void tell(const weft_job *job, const wf_setup *s, const wf_pipeline *p,
-                 wf_report *report) {
-    report->listed = (int64_t)s->sequence.count;
-    report->missing = list_missing(&s->sequence);
-    report->missing_count = report->missing ? s->sequence.missing : 0;
-    report->legal = wf_setup_legal(job, s);
-    if (!p) return;
-    wf_source_counts counts = wf_pipeline_counts(p);
-    wf_worker times = wf_pipeline_times(p);
-    report->frames = wf_frames_done(p->frames);
-    report->fields = report->frames * wf_raster_fields_per_frame(&job->raster);
-    report->opened = p->opened;
-    report->chunks_decoded = counts.chunks_decoded;
-    report->chunks_reused = counts.chunks_reused;
-    report->nan_fixed = counts.nan_fixed;
-    report->decode_s = times.decode_s;
+/* A dry run needs to know how many files are open at once only where it tells of files. */
+static weft_status begin(wf_run *run, weft_error *err) {
+    bool begins = !run->job->dry_run || run->kind->opens;
+    weft_status status = run->kind->start ? run->kind->start(run, err) : WEFT_OK;
+    if (!status && begins) status = run->kind->summing->begin(run, err);
+    if (status) run->kind->summing->end(run);
+    return status;
+}
+
+static void tell(const wf_run *run) {
+    wf_report *report = run->report;
+    wf_worker times = wf_crew_times(&run->crew);
+    report->legal = wf_setup_legal(run->job, &run->setup);
+    report->frames = run->crew.done;
+    report->fields = run->crew.done * wf_raster_fields_per_frame(&run->job->raster);
     report->resample_s = times.resample_s;
-    report->color_s = times.finisher.color_s;
-    report->write_s = wf_frames_write_s(p->frames);
-    wf_frames_tell_legal(p->frames, &report->legal);
+    report->color_s = times.color_s;
+    if (run->frames) wf_frames_tell(run->frames, report);
+    if (run->sums) run->kind->summing->tell(run, report);
+    run->kind->tell(run, report);
 }
 
-static void tell_mended(const weft_job *job, int64_t pixels, bool *degraded) {
-    if (!pixels) return;
-    *degraded = true;
-    wf_job_warn(job, "%lld pixels of the input were NaN or infinite: %s", (long long)pixels,
-                job->nan_fix == WF_NAN_BLACK ? "they are black"
-                                             : "they are the means of their neighbours");
-}
-
-static weft_status run_setup(weft_job *job, const wf_setup *s, wf_pipeline **p,
-                             wf_report *report, weft_error *err) {
-    bool *degraded = &report->degraded;
-    bool done = job->resume && !s->output.kind->sequence &&
-                wf_output_present(s->output.kind, job->output, -1);
-    if (done && !job->dry_run) return WEFT_OK;
-    weft_status status = wf_refuse_own_inputs(job, s, err);
-    if (!status && !done) status = face_missing(job, s, degraded, err);
-    if (!status) status = wf_pipeline_new(job, s, p, err);
-    const wf_foresee_desc plan = {.job = job, .setup = s, .pipeline = *p};
-    if (!status && job->dry_run) return wf_foresee(&plan, report, err);
-    if (!status) status = run_with_sink(*p, err);
-    if (!status) tell_mended(job, wf_pipeline_counts(*p).nan_fixed, degraded);
-    return status;
-}
-
-static weft_status run_convert(weft_job *job, wf_report *report, weft_error *err) {
-    wf_setup setup = {0};
-    wf_pipeline *pipeline = NULL;
-    if (wf_takes_samples(job)) {
-        if (job->cadence == WF_CADENCE_NONE) return wf_run_samples(job, report, err);
-        return wf_fail(err, WEFT_USAGE,
-                       "%s: --cadence is for subframes and scenes, not for sample buffers, "
-                       "whose times count fields",
-                       job->inputs[0]);
-    }
-    weft_status status = wf_setup_make(job, &setup, err);
-    if (!status) status = run_setup(job, &setup, &pipeline, report, err);
-    tell(job, &setup, pipeline, report);
-    wf_pipeline_free(pipeline);
-    wf_setup_free(&setup);
+static weft_status make_video(wf_run *run, weft_error *err) {
+    weft_status status = settle(run, err);
+    bool done = !status && !run->job->dry_run && wf_frames_all_there(run->job, &run->setup);
+    if (!status && !done) status = begin(run, err);
+    if (!status && !done)
+        status = run->job->dry_run ? wf_dry_run_make(run, false, err) : make_all(run, err);
+    tell(run);
     return status;
 }
 
 /* ---- Any job ---- */
 
-typedef weft_status run_fn(weft_job *job, wf_report *report, weft_error *err);
+typedef weft_status run_fn(wf_run *run, weft_error *err);
 
 static run_fn *const runs[] = {
-    [WF_CONVERT] = run_convert, [WF_RENDER] = wf_run_render, [WF_TRACE] = wf_run_trace};
+    [WF_CONVERT] = make_video,
+    [WF_RENDER] = make_video,
+    [WF_TRACE] = wf_run_trace,
+};
+
+static void release(wf_run *run) {
+    if (run->kind) {
+        run->kind->summing->end(run);
+        run->kind->close(run);
+    }
+    wf_frames_free(run->frames);
+    wf_setup_free(&run->setup);
+    wf_crew_free(&run->crew);
+}
+
+static weft_status run_job(weft_job *job, wf_report *report, weft_error *err) {
+    wf_run run = {.job = job, .report = report};
+    weft_status status = wf_crew_new(job, 0, &run.crew, err);
+    if (!status) status = runs[job->command](&run, err);
+    release(&run);
+    return status;
+}
 
 static void tell_outside(const weft_job *job, const wf_legal_counts *counts) {
     double share = (double)counts->outside / (double)(counts->pixels + 1);
@@ -179,7 +174,7 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
     if (!status) wf_job_settle(job);
-    if (!status) status = runs[job->command](job, &report, err);
+    if (!status) status = run_job(job, &report, err);
     if (!status) tell_outside(job, &report.legal.counts);
     report.wall_s = wf_now_s() - start;
     if (job->dry_run) report.frames = report.fields = 0;
@@ -187,6 +182,6 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     free(job->report);
     job->report = wf_report_json(&report);
     free(report.missing);
-    wf_foreseen_free(report.plan);
+    wf_dry_run_free(report.plan);
     return status ? status : report.degraded ? WEFT_DEGRADED : WEFT_OK;
 }

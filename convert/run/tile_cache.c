@@ -1,32 +1,33 @@
+/* Sums of one band of rows, and the cache of those of tiles in which nothing moves. */
 #include "convert/run/tile_cache.h"
 
 #include <stdlib.h>
 
-/* ---- The shelf ---- */
+/* ---- The cache ---- */
 
-bool wf_tile_cache_new(int tiles, int slots, wf_tile_cache *shelf) {
-    *shelf = (wf_tile_cache){.tiles = tiles, .slots = slots};
-    shelf->sums = calloc((size_t)tiles * (size_t)slots + 1, sizeof(wf_gather *));
-    return shelf->sums;
+bool wf_tile_cache_new(int tiles, int slots, wf_tile_cache *cache) {
+    *cache = (wf_tile_cache){.tiles = tiles, .slots = slots};
+    cache->sums = calloc((size_t)tiles * (size_t)slots + 1, sizeof(wf_gather *));
+    return cache->sums;
 }
 
-void wf_tile_cache_free(wf_tile_cache *shelf) {
-    for (int n = 0; shelf->sums && n < shelf->tiles * shelf->slots; n++)
-        wf_gather_free(shelf->sums[n]);
-    free(shelf->sums);
-    *shelf = (wf_tile_cache){0};
+void wf_tile_cache_free(wf_tile_cache *cache) {
+    for (int n = 0; cache->sums && n < cache->tiles * cache->slots; n++)
+        wf_gather_free(cache->sums[n]);
+    free(cache->sums);
+    *cache = (wf_tile_cache){0};
 }
 
-static wf_gather **kept_for(const wf_strips *s, const wf_taker *taker) {
-    const wf_tile_cache *shelf = s->taking->shelf;
-    return shelf ? &shelf->sums[s->tile.index * shelf->slots + taker->slot] : NULL;
+static wf_gather **kept_for(const wf_band_sums *s, const wf_taker *taker) {
+    const wf_tile_cache *cache = s->taking->cache;
+    return cache ? &cache->sums[s->tile.index * cache->slots + taker->slot] : NULL;
 }
 
 /* ---- Life ---- */
 
-bool wf_strips_new(const wf_taking *taking, int first_row, int end_row, wf_strips *s) {
+bool wf_band_sums_new(const wf_taking *taking, int first_row, int end_row, wf_band_sums *s) {
     size_t count = (size_t)taking->count;
-    *s = (wf_strips){.taking = taking};
+    *s = (wf_band_sums){.taking = taking};
     s->sums = calloc(count + 1, sizeof(wf_gather *));
     s->patch = calloc(count + 1, sizeof(wf_gather *));
     bool good = s->sums && s->patch;
@@ -41,23 +42,23 @@ bool wf_strips_new(const wf_taking *taking, int first_row, int end_row, wf_strip
     return good;
 }
 
-void wf_strips_free(wf_strips *s) {
+void wf_band_sums_free(wf_band_sums *s) {
     for (int n = 0; s->taking && n < s->taking->count; n++) {
         if (s->sums) wf_gather_free(s->sums[n]);
         if (s->patch) wf_gather_free(s->patch[n]);
     }
     free(s->sums);
     free(s->patch);
-    *s = (wf_strips){0};
+    *s = (wf_band_sums){0};
 }
 
 /* ---- Still tiles ---- */
 
 /* Whether what is kept of a tile is all that the fields in flight need; it is added to them. */
-static bool take_kept(wf_strips *s) {
+static bool take_kept(wf_band_sums *s) {
     const wf_taking *all = s->taking;
     for (int n = 0; n < all->count; n++)
-        if (all->takers[n].waits && (!all->shelf || !*kept_for(s, &all->takers[n])))
+        if (all->takers[n].waits && (!all->cache || !*kept_for(s, &all->takers[n])))
             return false;
     for (int n = 0; n < all->count; n++)
         if (all->takers[n].waits) wf_gather_merge(s->sums[n], *kept_for(s, &all->takers[n]));
@@ -69,7 +70,7 @@ static bool serves(const wf_sample_tile *tile, const wf_taker *taker) {
     return tile->both || taker->shift == 0;
 }
 
-static void open_patches(wf_strips *s) {
+static void open_patches(wf_band_sums *s) {
     const double x[2] = {s->tile.left, s->tile.right}, y[2] = {s->tile.first, s->tile.end};
     for (int n = 0; n < s->taking->count; n++) {
         const wf_taker *t = &s->taking->takers[n];
@@ -80,8 +81,8 @@ static void open_patches(wf_strips *s) {
     }
 }
 
-/* The tile in hand, if it is still, is done: to the fields and the shelf with it. */
-static void put_away(wf_strips *s) {
+/* Adds the tile in hand, if it is still, to the fields, and keeps it in the cache. */
+static void put_away(wf_band_sums *s) {
     if (!s->still) return;
     for (int n = 0; n < s->taking->count; n++) {
         const wf_gather *patch = s->patch[s->taking->takers[n].like];
@@ -108,18 +109,18 @@ static void add(const wf_taker *taker, wf_gather *sums, const wf_samples *sample
 }
 
 static void receive(void *user, const wf_samples *samples) {
-    wf_strips *s = user;
+    wf_band_sums *s = user;
     for (int n = 0; n < s->taking->count; n++)
         add(&s->taking->takers[n], s->still ? s->patch[n] : s->sums[n], samples);
 }
 
-static void fill(const wf_strips *s, const wf_sample_tile *tile) {
+static void fill(const wf_band_sums *s, const wf_sample_tile *tile) {
     for (int n = 0; n < s->taking->count; n++)
         if (s->sums[n]) wf_gather_fill(s->sums[n], tile, tile->all);
 }
 
 static bool begin_tile(void *user, const wf_sample_tile *tile) {
-    wf_strips *s = user;
+    wf_band_sums *s = user;
     put_away(s);
     s->tile = *tile;
     if (tile->all) {
@@ -132,11 +133,11 @@ static bool begin_tile(void *user, const wf_sample_tile *tile) {
     return !s->failed;
 }
 
-wf_receiver wf_strips_receiver(wf_strips *s) {
+wf_receiver wf_band_sums_receiver(wf_band_sums *s) {
     return (wf_receiver){s, receive, begin_tile};
 }
 
-bool wf_strips_end(wf_strips *s) {
+bool wf_band_sums_end(wf_band_sums *s) {
     put_away(s);
     return !s->failed;
 }

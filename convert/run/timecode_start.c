@@ -1,4 +1,4 @@
-/* Where timecode starts. */
+/* The timecode of frame 0. */
 #include "convert/run/timecode_start.h"
 
 #include <string.h>
@@ -6,30 +6,30 @@
 #define MOST_LABELS 60 /* a second: what renderers call framesPerSecond may be subframes */
 #define A_FRAMES    5  /* labels from one A frame to the next */
 
-static wf_rational counted_rate(const weft_job *job, const wf_setup *s) {
-    wf_rational told = s->first.frames;
+static wf_rational counted_rate(const weft_job *job, const wf_image_info *first) {
+    wf_rational told = first->frames;
     if (wf_ratio_given(told) && wf_timecode_base(told) <= MOST_LABELS) return told;
     return job->raster.pulldown ? wf_raster_film_rate(&job->raster) : job->raster.frame_rate;
 }
 
-static void take_label(const weft_job *job, wf_setup *s) {
+static void take_label(const weft_job *job, wf_setup *s, const wf_image_info *first) {
     wf_timecode label;
     const char *name = job->inputs[0];
-    wf_rational rate = counted_rate(job, s);
-    bool read = wf_parse_timecode(s->first.timecode, &label);
+    wf_rational rate = counted_rate(job, first);
+    bool read = wf_parse_timecode(first->timecode, &label);
     if (read && wf_timecode_together(rate) == 2)
-        label.frames = 2 * label.frames + s->first.timecode_mark;
+        label.frames = 2 * label.frames + first->timecode_mark;
     if (!read || !wf_timecode_convert(label, rate, job->raster.frame_rate, &label)) {
         wf_job_warn(job,
                     "%s: its timecode, %s, is none at %.6g frames a second: frame 0 is "
                     "00:00:00:00",
-                    name, s->first.timecode, wf_ratio_value(rate));
+                    name, first->timecode, wf_ratio_value(rate));
         return;
     }
     wf_timecode_text(&label, s->timecode);
     s->output_options.timecode = s->timecode;
     wf_job_warn(job, "timecode of frame 0 is %s, from %s of %s; --timecode gives another",
-                s->timecode, s->first.timecode, name);
+                s->timecode, first->timecode, name);
 }
 
 /* Editors look for A frames at labels :00 and :05; drop frame moves them about anyway. */
@@ -44,7 +44,7 @@ static void check_a_frame(const weft_job *job, const wf_setup *s) {
                     s->output_options.timecode);
 }
 
-void wf_start_timecode(const weft_job *job, wf_setup *s) {
-    if (!job->timecode && *s->first.timecode) take_label(job, s);
+void wf_start_timecode(const weft_job *job, wf_setup *s, const wf_image_info *first) {
+    if (!job->timecode && *first->timecode) take_label(job, s, first);
     check_a_frame(job, s);
 }

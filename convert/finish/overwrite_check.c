@@ -1,4 +1,5 @@
-#include "convert/run/overwrite_check.h"
+/* Whether an output is one of the inputs. */
+#include "convert/finish/overwrite_check.h"
 
 #include <stdlib.h>
 #include <sys/stat.h>

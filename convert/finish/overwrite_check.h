@@ -1,7 +1,7 @@
-#ifndef WF_CONVERT_RUN_OVERWRITE_CHECK_H
-#define WF_CONVERT_RUN_OVERWRITE_CHECK_H
+#ifndef WF_CONVERT_FINISH_OVERWRITE_CHECK_H
+#define WF_CONVERT_FINISH_OVERWRITE_CHECK_H
 
-#include "convert/run/setup.h"
+#include "convert/finish/setup.h"
 
 /* Refuses a job whose output would replace one of its own inputs, under whatever name. Only
  * files that are there already can be; without --overwrite they are refused anyway. */

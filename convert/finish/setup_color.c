@@ -7,7 +7,7 @@
 #include "color/space/ocio/ocio.h"
 #include "convert/base/module.h"
 #include "convert/job/colors.h"
-#include "convert/run/setup.h"
+#include "convert/finish/setup.h"
 
 static const char *given(const char *text) {
     return text && *text ? text : NULL;
@@ -72,6 +72,11 @@ weft_status wf_setup_color(const weft_job *job, wf_setup *s, weft_error *err) {
     return choose_transform(job, s, err);
 }
 
+void wf_setup_color_of_raster(const weft_job *job, wf_setup *s) {
+    snprintf(s->color_space, sizeof s->color_space, "%s",
+             wf_colors_of(job->raster.matrix)->space);
+}
+
 /* What the picture is shown on, as far as its color space tells. */
 weft_status wf_setup_display(const weft_job *job, wf_setup *s, weft_error *err) {
     static const struct {
@@ -82,7 +87,7 @@ weft_status wf_setup_display(const weft_job *job, wf_setup *s, weft_error *err) 
     wf_transfer transfer = WF_TRANSFER_BT1886;
     if (job->chroma != WF_CHROMA_LUMA_ADJUST || s->output.kind->layout != WF_YCBCR)
         return WEFT_OK;
-    if (!s->display) s->display = malloc(sizeof *s->display);
+    s->display = malloc(sizeof *s->display);
     if (!s->display) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a display's curve");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (strcmp(rows[i].space, s->color_space)) continue;

@@ -1,0 +1,63 @@
+#ifndef WF_CONVERT_FINISH_CREW_H
+#define WF_CONVERT_FINISH_CREW_H
+
+#include <stdatomic.h>
+
+#include "convert/job/job.h"
+
+/* The threads of a run: how work is shared out among them, and how they all learn that one of
+ * them has failed or that the job was cancelled. Whoever shares work out cuts it into pieces
+ * that do not depend on the number of threads, so that the bits of the result do not either. */
+
+/* One thread, as its pieces of work see it. */
+typedef struct wf_worker {
+    int number;         /* 0 <= number < threads: which of its owner's buffers are its own */
+    weft_status status; /* of its first failure */
+    weft_error error;
+    double source_s, resample_s, color_s; /* seconds that it has spent in each */
+} wf_worker;
+
+typedef struct wf_crew {
+    weft_job *job; /* whose cancelling is heeded, and who is told of progress */
+    wf_worker *workers;
+    int threads;
+    atomic_bool stop;    /* a worker has failed */
+    int64_t done, total; /* frames (or subframes) written, and to be written */
+    double began_s;
+} wf_crew;
+
+/* threads: 0 for what the job asks for. The job must outlive the crew. Whatever the status,
+ * wf_crew_free releases it. */
+weft_status wf_crew_new(weft_job *job, int threads, wf_crew *crew, weft_error *err);
+void wf_crew_free(wf_crew *crew);
+
+/* Calls work(user, worker, n) for 0 <= n < count, in any order, by all workers; `together` of
+ * them in a row are handed out at once. What is left is skipped when wf_crew_stopped. */
+typedef void wf_crew_work(void *user, wf_worker *worker, int n);
+void wf_crew_each(wf_crew *crew, int count, int together, wf_crew_work *work, void *user);
+
+/* Calls make(user, worker, n) in any order, by all workers, and take(user, worker, n, made)
+ * with what it returned in the order of n, one at a time. What is not made, since the crew has
+ * stopped, is taken as NULL. */
+typedef void *wf_crew_make(void *user, wf_worker *worker, int n);
+typedef void wf_crew_take(void *user, wf_worker *worker, int n, void *made);
+void wf_crew_in_order(wf_crew *crew, int count, wf_crew_make *make, wf_crew_take *take,
+                      void *user);
+
+/* The worker has failed, with the reason in its error; its first failure is kept, and all
+ * others stop at their next piece. */
+void wf_crew_fail(wf_crew *crew, wf_worker *worker, weft_status status);
+
+/* Whether nothing more should be begun. */
+bool wf_crew_stopped(const wf_crew *crew);
+
+/* WEFT_INTERRUPTED, or a worker's failure, or WEFT_OK. Between pieces of work only. */
+weft_status wf_crew_status(const wf_crew *crew, weft_error *err);
+
+/* One frame more is done: tells the job's progress function. */
+void wf_crew_step(wf_crew *crew);
+
+/* The seconds of all workers together. */
+wf_worker wf_crew_times(const wf_crew *crew);
+
+#endif

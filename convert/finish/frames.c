@@ -1,0 +1,237 @@
+/* Lines into frames, and frames into the sink. */
+#include "convert/finish/frames.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#include "convert/base/clock.h"
+
+/* The planes of a frame, and what r103 has done to its lines so far. */
+typedef struct slot {
+    void *plane[3];
+    _Atomic int64_t pixels, touched, outside;
+} slot;
+
+/* What a worker finishes lines with. */
+typedef struct finisher {
+    float *line;    /* [3][width]: one line of scene-linear, then of R'G'B' */
+    float *scratch; /* wf_encode_scratch */
+} finisher;
+
+struct wf_frames {
+    wf_crew *crew;
+    const wf_setup *setup;
+    const wf_raster *raster;
+    wf_sink *sink; /* NULL: not open */
+    slot *slots;   /* frame n is in slots[n % count] */
+    int count;
+    finisher *finishers; /* [threads] */
+    size_t stride[3];    /* samples */
+    double write_s;
+    wf_legal_counts legal; /* of the frames written */
+    int64_t worst_outside; /* pixels of a frame that r103 left so: the most of all frames */
+};
+
+/* ---- Life ---- */
+
+static bool is_linear(const wf_setup *s) {
+    return s->output.kind->layout == WF_LINEAR;
+}
+
+static size_t sample_bytes(const wf_setup *s) {
+    return is_linear(s) ? sizeof(float) : sizeof(uint16_t);
+}
+
+static size_t stride_of(const wf_setup *s, int c) {
+    size_t width = (size_t)s->output_options.raster->width_px;
+    return c && s->output_options.subsampled ? width / 2 : width;
+}
+
+static size_t plane_bytes(const weft_job *job, const wf_setup *s, int c) {
+    return stride_of(s, c) * (size_t)job->raster.lines * sample_bytes(s);
+}
+
+/* Fields may be finished in any order, and the first may belong to a frame begun before. */
+static int slots_for(const weft_job *job, int fields) {
+    int per_frame = wf_raster_fields_per_frame(&job->raster);
+    return (fields + per_frame - 1) / per_frame + 1;
+}
+
+size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int fields) {
+    size_t bytes = 0;
+    for (int c = 0; c < 3; c++) bytes += plane_bytes(job, s, c);
+    return bytes * (size_t)slots_for(job, fields);
+}
+
+static bool make_planes(wf_frames *f) {
+    const weft_job *job = f->crew->job;
+    f->slots = calloc((size_t)f->count, sizeof *f->slots);
+    bool good = f->slots;
+    for (int c = 0; c < 3; c++) f->stride[c] = stride_of(f->setup, c);
+    for (int n = 0; good && n < f->count; n++)
+        for (int c = 0; c < 3; c++) {
+            f->slots[n].plane[c] = malloc(plane_bytes(job, f->setup, c));
+            good = good && f->slots[n].plane[c];
+        }
+    return good;
+}
+
+static bool make_finishers(wf_frames *f) {
+    size_t width = (size_t)f->raster->width_px;
+    f->finishers = calloc((size_t)f->crew->threads, sizeof *f->finishers);
+    bool good = f->finishers;
+    for (int t = 0; good && t < f->crew->threads; t++) {
+        finisher *own = &f->finishers[t];
+        own->line = malloc(3 * width * sizeof *own->line);
+        own->scratch = malloc((1 + wf_encode_scratch(&f->setup->encoding)) * sizeof(float));
+        good = own->line && own->scratch;
+    }
+    return good;
+}
+
+weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_frames **out,
+                          weft_error *err) {
+    wf_frames *f = calloc(1, sizeof *f);
+    if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for frames");
+    *f = (wf_frames){.crew = crew, .setup = setup, .raster = &crew->job->raster};
+    f->count = slots_for(crew->job, fields);
+    if (!make_planes(f) || !make_finishers(f)) {
+        wf_frames_free(f);
+        return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
+    }
+    *out = f;
+    return WEFT_OK;
+}
+
+void wf_frames_free(wf_frames *f) {
+    if (!f) return;
+    if (f->sink) f->setup->output.ops->abandon(f->sink);
+    for (int n = 0; f->slots && n < f->count; n++)
+        for (int c = 0; c < 3; c++) free(f->slots[n].plane[c]);
+    for (int t = 0; f->finishers && t < f->crew->threads; t++) {
+        free(f->finishers[t].line);
+        free(f->finishers[t].scratch);
+    }
+    free(f->slots);
+    free(f->finishers);
+    free(f);
+}
+
+/* ---- Lines ---- */
+
+static int line_in_frame(const wf_frames *f, int64_t field, int line) {
+    return wf_raster_parity(f->raster, field) + line * wf_raster_line_step(f->raster);
+}
+
+static slot *slot_of(const wf_frames *f, int64_t field) {
+    return &f->slots[field / wf_raster_fields_per_frame(f->raster) % f->count];
+}
+
+static void *frame_line(const wf_frames *f, int64_t field, int c, int line) {
+    const slot *frame = slot_of(f, field);
+    size_t at = (size_t)line_in_frame(f, field, line) * f->stride[c];
+    return (char *)frame->plane[c] + at * sample_bytes(f->setup);
+}
+
+/* Light that is written as it is goes into its frame at once. */
+void wf_frames_place(const wf_frames *f, const wf_worker *worker, int64_t field, int line,
+                     float *rgb[3]) {
+    float *own = f->finishers[worker->number].line;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = is_linear(f->setup) ? frame_line(f, field, c, line)
+                                     : own + (size_t)c * (size_t)f->raster->width_px;
+}
+
+/* R'G'B' to codes: chroma, legal colors and quantising. */
+static void encode(wf_frames *f, const wf_worker *worker, int64_t field, int line,
+                   float *const rgb[3]) {
+    slot *frame = slot_of(f, field);
+    wf_legal_counts legal = {0};
+    wf_encoding encoding = f->setup->encoding;
+    uint16_t *code[3];
+    for (int c = 0; c < 3; c++) code[c] = frame_line(f, field, c, line);
+    encoding.line = line_in_frame(f, field, line);
+    encoding.legal = &legal;
+    wf_encode_line(&encoding, rgb, f->finishers[worker->number].scratch, code);
+    frame->pixels += legal.pixels;
+    frame->touched += legal.touched;
+    frame->outside += legal.outside;
+}
+
+void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
+    const wf_transform *transform = &f->setup->transform;
+    float *rgb[3];
+    double start = wf_now_s();
+    wf_frames_place(f, worker, field, line, rgb);
+    if (transform->apply)
+        transform->apply(transform->self, rgb[0], rgb[1], rgb[2], (size_t)f->raster->width_px);
+    if (!is_linear(f->setup)) encode(f, worker, field, line, rgb);
+    worker->color_s += wf_now_s() - start;
+}
+
+/* ---- Frames ---- */
+
+weft_status wf_frames_open(wf_frames *f, weft_error *err) {
+    return f->setup->output.ops->open(&f->setup->output_options, &f->sink, err);
+}
+
+/* The planes are those of a later frame after this. */
+static void count_legal(wf_frames *f, slot *frame) {
+    int64_t outside = atomic_exchange(&frame->outside, 0);
+    f->legal.pixels += atomic_exchange(&frame->pixels, 0);
+    f->legal.touched += atomic_exchange(&frame->touched, 0);
+    f->legal.outside += outside;
+    if (outside > f->worst_outside) f->worst_outside = outside;
+}
+
+weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
+    slot *from = &f->slots[index % f->count];
+    wf_frame frame = {.index = index};
+    for (int c = 0; c < 3; c++) {
+        frame.plane[c] = from->plane[c];
+        frame.stride[c] = f->stride[c];
+    }
+    count_legal(f, from);
+    double start = wf_now_s();
+    weft_status status = f->setup->output.ops->write(f->sink, &frame, err);
+    f->write_s += wf_now_s() - start;
+    wf_crew_step(f->crew);
+    return status;
+}
+
+weft_status wf_frames_commit(wf_frames *f, weft_error *err) {
+    double start = wf_now_s();
+    weft_status status = f->setup->output.ops->commit(f->sink, err);
+    f->sink = NULL;
+    f->write_s += wf_now_s() - start;
+    return status;
+}
+
+void wf_frames_tell(const wf_frames *f, wf_report *report) {
+    double pixels = (double)f->raster->width_px * f->raster->lines;
+    report->write_s = f->write_s;
+    report->legal.counts = f->legal;
+    report->legal.worst_share = (double)f->worst_outside / pixels;
+}
+
+/* ---- Which frames ---- */
+
+static bool is_there(const weft_job *job, const wf_setup *s, int64_t frame) {
+    int files = wf_output_files(&s->output_options);
+    for (int n = 0; n < files; n++)
+        if (!wf_output_present(s->output.kind, job->output, frame * files + n)) return false;
+    return true;
+}
+
+bool wf_frames_next(const weft_job *job, const wf_setup *s, int64_t *first, int64_t *end) {
+    bool leave_out = job->resume && s->output.kind->sequence;
+    while (leave_out && *first < s->end_frame && is_there(job, s, *first)) ++*first;
+    *end = leave_out && *first < s->end_frame ? *first + 1 : s->end_frame;
+    while (leave_out && *end < s->end_frame && !is_there(job, s, *end)) ++*end;
+    return *first < s->end_frame;
+}
+
+bool wf_frames_all_there(const weft_job *job, const wf_setup *s) {
+    return job->resume && !s->output.kind->sequence &&
+           wf_output_present(s->output.kind, job->output, -1);
+}

@@ -1,0 +1,179 @@
+/* A job settled, all but its colors (setup_color.c): the output that is asked for, held against
+ * what its kind takes. */
+#include "convert/finish/setup.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "convert/job/colors.h"
+
+/* ---- Output ---- */
+
+static int list_bits(unsigned mask, char *text, size_t size) {
+    int used = 0;
+    for (int bits = 1; bits < 32; bits++)
+        if (mask & 1u << bits)
+            used += snprintf(text + used, size - (size_t)used, "%s%d", used ? ", " : "", bits);
+    return used;
+}
+
+static weft_status check_codes(const weft_job *job, const wf_output_kind *kind, int bits,
+                               weft_error *err) {
+    bool subsampled = kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444;
+    if (kind->layout != WF_LINEAR && !(kind->bits_mask & 1u << bits)) {
+        char there[64];
+        list_bits(kind->bits_mask, there, sizeof there);
+        return wf_fail(err, WEFT_USAGE, "%s: %s takes --bits %s, not %d", job->output,
+                       kind->name, there, bits);
+    }
+    if (subsampled && job->raster.width_px % 2)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: 4:2:2 takes an even width, and %s is %d pixels wide; "
+                       "change the raster or give --chroma 444",
+                       job->output, job->raster.name, job->raster.width_px);
+    if (kind->fixed_422 && !subsampled)
+        return wf_fail(err, WEFT_USAGE, "%s: %s is always 4:2:2; leave out --chroma 444",
+                       job->output, kind->name);
+    return WEFT_OK;
+}
+
+static weft_status check_files(const weft_job *job, const wf_output_kind *kind,
+                               weft_error *err) {
+    if (job->silent_tracks && !kind->container)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: %s has no sound; --audio is for .mov, .mxf and .mkv", job->output,
+                       kind->name);
+    if (job->separate_fields && !kind->sequence)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: %s holds frames; --fields separate is for image sequences, such as "
+                       "out.####.dpx",
+                       job->output, kind->name);
+    if (job->separate_fields && job->raster.scan == WF_PROGRESSIVE)
+        return wf_fail(err, WEFT_USAGE,
+                       "--fields separate: %s is progressive and has no fields; leave it out",
+                       job->raster.name);
+    if (job->chunk_count > 1 && !kind->joins)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: chunks of %s cannot be joined; write an image sequence, "
+                       ".y4m, .v210 or .uyvy",
+                       job->output, kind->name);
+    return WEFT_OK;
+}
+
+static void tell_changes(const weft_job *job, const wf_setup *s) {
+    char text[512] = "";
+    if (s->output.ops->tell) s->output.ops->tell(&s->output_options, text, sizeof text);
+    if (*text) wf_job_warn(job, "%s", text);
+    if (s->output.kind->layout == WF_LINEAR && job->legalize != WF_LEGAL_NONE)
+        wf_job_warn(job, "%s: --legalize is for codes; float samples stay as they are",
+                    job->output);
+}
+
+static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full) {
+    s->output_options = (wf_output_options){
+        .output = job->output,
+        .raster = &job->raster,
+        .layout = s->output.kind->layout,
+        .bits = s->output.kind->layout == WF_LINEAR ? 32 : bits,
+        .full_range = full,
+        .subsampled = s->output.kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
+        .separate_fields = job->separate_fields,
+        .stream_header = job->chunk == 1,
+        .timecode = job->timecode ? job->timecode : "00:00:00:00",
+        .color_space = s->color_space,
+        .codec = job->codec,
+        .silent_tracks = job->silent_tracks,
+        .threads = job->threads,
+        .overwrite = job->overwrite,
+        .resume = job->resume,
+    };
+}
+
+static void describe_codes(const weft_job *job, wf_setup *s, int bits, bool full) {
+    const wf_colors *colors = wf_colors_of(job->raster.matrix);
+    s->encoding = (wf_encoding){
+        .luma = colors->luma,
+        .chroma = job->chroma,
+        .legalize = job->legalize,
+        .dither = job->dither,
+        .ycbcr = s->output.kind->layout == WF_YCBCR,
+        .full_range = full,
+        .bits = bits,
+        .width_px = job->raster.width_px,
+    };
+}
+
+/* The sink and the codes, but for what depends on colors. */
+static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err) {
+    s->output = wf_output_for(job->output, job->codec, err);
+    if (!s->output.kind) return WEFT_USAGE;
+    const wf_output_kind *kind = s->output.kind;
+    int bits = job->bits ? job->bits : kind->default_bits;
+    bool full = job->range == WF_RANGE_UNSET ? kind->full_range : job->range == WF_RANGE_FULL;
+    weft_status status = check_codes(job, kind, bits, err);
+    if (!status) status = check_files(job, kind, err);
+    if (status) return status;
+    describe_sink(job, s, bits, full);
+    describe_codes(job, s, bits, full);
+    if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);
+    if (!status) tell_changes(job, s);
+    return status;
+}
+
+weft_status wf_setup_output(const weft_job *job, wf_setup *s, weft_error *err) {
+    weft_status status = settle_sink(job, s, err);
+    if (!status) status = wf_setup_color(job, s, err);
+    return status ? status : wf_setup_display(job, s, err);
+}
+
+weft_status wf_setup_video(const weft_job *job, wf_setup *s, weft_error *err) {
+    weft_status status = settle_sink(job, s, err);
+    if (status) return status;
+    wf_setup_color_of_raster(job, s);
+    return wf_setup_display(job, s, err);
+}
+
+/* ---- Frames and fields ---- */
+
+void wf_setup_tell_frames(wf_setup *s) {
+    s->output_options.first_frame = s->first_frame;
+    s->output_options.frame_count = s->end_frame - s->first_frame;
+}
+
+void wf_setup_frames(const weft_job *job, wf_setup *s, int64_t first, int64_t end) {
+    int64_t frames = end - first;
+    s->first_frame = first + frames * (job->chunk - 1) / job->chunk_count;
+    s->end_frame = first + frames * job->chunk / job->chunk_count;
+    wf_setup_tell_frames(s);
+}
+
+wf_rational wf_setup_width(const weft_job *job) {
+    return wf_ratio_given(job->temporal_width) ? job->temporal_width
+                                               : job->aperture.kind->default_width;
+}
+
+wf_gather_desc wf_setup_gather(const weft_job *job) {
+    return (wf_gather_desc){.raster = &job->raster,
+                            .aperture = job->aperture,
+                            .width = wf_setup_width(job),
+                            .position = job->shutter_position,
+                            .skew = job->scan_skew};
+}
+
+/* ---- Report ---- */
+
+wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
+    if (!s->output.kind || s->output.kind->layout == WF_LINEAR) return (wf_report_legal){0};
+    static const char *const legalize[] = {"none", "clip", "r103"};
+    return (wf_report_legal){.legalize = legalize[job->legalize],
+                             .dither = job->dither == WF_DITHER_TPDF ? "tpdf" : "none",
+                             .range = s->output_options.full_range ? "full" : "narrow",
+                             .bits = s->output_options.bits};
+}
+
+void wf_setup_free(wf_setup *s) {
+    wf_sequence_free(&s->sequence);
+    if (s->transform.free) s->transform.free(s->transform.self);
+    free(s->display);
+    *s = (wf_setup){0};
+}

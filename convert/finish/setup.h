@@ -1,0 +1,65 @@
+#ifndef WF_CONVERT_FINISH_SETUP_H
+#define WF_CONVERT_FINISH_SETUP_H
+
+#include "color/codes/encode.h"
+#include "color/space/transform.h"
+#include "convert/job/job.h"
+#include "convert/job/report.h"
+#include "convert/job/timecode.h"
+#include "convert/read/sequence.h"
+#include "convert/write/sink.h"
+#include "filters/gather/samples.h"
+
+/* A job settled: which files and frames there are, what is to be written, and how colors become
+ * codes. Made by one thread before a pixel is read, and only read after that. A zeroed setup is
+ * an empty one; wf_setup_free releases it whatever was made of it. */
+typedef struct wf_setup {
+    wf_sequence sequence;           /* the files that the source reads; empty: a scene, video */
+    int64_t first_frame, end_frame; /* of this chunk */
+    const char *scene_space; /* what the input says that its colors are in; NULL: nothing */
+
+    wf_output output;
+    wf_output_options output_options;
+    char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
+    char color_space[64];            /* of what is written; "" if it has no name */
+    wf_transform transform;          /* apply is NULL where colors are left alone */
+    wf_encoding encoding;            /* where codes are written */
+    wf_display *display;             /* the encoding's, for luma-adjust; else NULL */
+} wf_setup;
+
+void wf_setup_free(wf_setup *setup);
+
+/* Settles the output: its sink, the way from scene_space to its colors, and its codes. */
+weft_status wf_setup_output(const weft_job *job, wf_setup *setup, weft_error *err);
+
+/* The same for video, whose colors are those of the raster already and are not transformed. */
+weft_status wf_setup_video(const weft_job *job, wf_setup *setup, weft_error *err);
+
+/* Settles the frames first <= n < end that the whole run makes: those of the job's chunk go to
+ * first_frame and end_frame, and the sink is told of them. */
+void wf_setup_frames(const weft_job *job, wf_setup *setup, int64_t first, int64_t end);
+
+/* Tells the sink which frames there will be: first_frame to end_frame. */
+void wf_setup_tell_frames(wf_setup *setup);
+
+/* How fields look at samples. Borrows the job's raster. */
+wf_gather_desc wf_setup_gather(const weft_job *job);
+
+/* Temporal width of a job's fields, in field periods: its own or its aperture's. */
+wf_rational wf_setup_width(const weft_job *job);
+
+/* What a report says of legal colors before anything is counted. */
+wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *setup);
+
+/* ---- Between the setup's files ---- */
+
+/* Finds the transform to the output's colors, and names these. (setup_color.c) */
+weft_status wf_setup_color(const weft_job *job, wf_setup *setup, weft_error *err);
+
+/* Names the raster's own colors as the output's. */
+void wf_setup_color_of_raster(const weft_job *job, wf_setup *setup);
+
+/* Makes the display of the output's colors, where luma-adjust looks at one. */
+weft_status wf_setup_display(const weft_job *job, wf_setup *setup, weft_error *err);
+
+#endif

@@ -1,0 +1,343 @@
+/* A sequence of subframes as a source. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "convert/run/fitting.h"
+#include "convert/run/pictures.h"
+#include "convert/run/timecode_start.h"
+
+/* run->source; the files are setup.sequence. */
+typedef struct subframes {
+    wf_source_options options;
+    wf_image_info first; /* what the first that is there says of itself */
+    wf_resampler *resampler;
+    int64_t end_field; /* of all frames, whatever the chunk */
+} subframes;
+
+static bool takes(const weft_job *job) {
+    return job->command == WF_CONVERT;
+}
+
+/* What the files say of their colors is not asked. */
+static weft_status open_input(wf_run *run, weft_error *err) {
+    run->source = calloc(1, sizeof(subframes));
+    return run->source ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for the job");
+}
+
+static void close_input(wf_run *run) {
+    subframes *s = run->source;
+    if (s) wf_resampler_free(s->resampler);
+    free(s);
+    run->source = NULL;
+}
+
+/* ---- Input ---- */
+
+static const wf_subframe_ref *first_present(const wf_sequence *sequence) {
+    for (size_t k = 0; k < sequence->count; k++)
+        if (sequence->refs[k].path) return &sequence->refs[k];
+    return NULL;
+}
+
+static bool shows_background(const weft_job *job) {
+    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
+}
+
+static weft_status look_at_first(subframes *s, const wf_subframe_ref *ref, weft_error *err) {
+    wf_subframe *subframe;
+    weft_status status = wf_subframe_open(ref->path, ref->part, &s->options, &subframe, err);
+    if (status) return status;
+    s->first = *wf_subframe_info(subframe);
+    wf_subframe_close(subframe);
+    return WEFT_OK;
+}
+
+static weft_status find_input(wf_run *run, weft_error *err) {
+    const weft_job *job = run->job;
+    wf_sequence *sequence = &run->setup.sequence;
+    subframes *s = run->source;
+    weft_status status =
+        wf_sequence_expand(job->inputs, job->input_count, job->frames, sequence, err);
+    if (status) return status;
+    const wf_subframe_ref *ref = first_present(sequence);
+    if (!ref)
+        return wf_fail(err, WEFT_FAILED, "%s: no subframe of the selection exists",
+                       job->inputs[0]);
+    s->options = (wf_source_options){
+        .layer = job->layer,
+        .part = job->part,
+        .want_alpha = shows_background(job),
+        .nan_fix = job->nan_fix,
+        .max_memory_bytes = job->max_memory_bytes,
+    };
+    return look_at_first(s, ref, err);
+}
+
+/* ---- Rate ---- */
+
+static weft_status settle_rate(const weft_job *job, const wf_run *run, wf_rational *rate,
+                               weft_error *err) {
+    const subframes *s = run->source;
+    *rate = job->subframe_rate;
+    if (!wf_ratio_given(*rate) && wf_ratio_given(s->first.rate))
+        *rate = wf_ratio_div(s->first.rate, run->setup.sequence.step);
+    if (wf_ratio_given(*rate) && rate->num > 0) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: the files do not say how many subframes a second they are; give "
+                   "--subframe-rate, such as --subframe-rate 240 or 480000/1001",
+                   job->inputs[0]);
+}
+
+static const char *rate_text(wf_rational rate, char text[48]) {
+    int used = snprintf(text, 48, "%" PRId64, rate.num);
+    if (rate.den != 1) snprintf(text + used, 48 - (size_t)used, "/%" PRId64, rate.den);
+    return text;
+}
+
+static bool is_whole(wf_rational r) {
+    return wf_ratio_given(r) && r.den == 1;
+}
+
+/* Film that was rendered at 24 runs at 24000/1001 in 59.94 fields, and the other way round: a
+ * tenth of a percent slower, with no frame lost. */
+static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_error *err) {
+    wf_rational film = wf_raster_film_rate(&job->raster), given = *rate;
+    const wf_rational speeds[] = {{1, 1}, {1000, 1001}, {1001, 1000}};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
+        *rate = wf_ratio_mul(given, speeds[i]);
+        if (!is_whole(wf_ratio_div(*rate, film))) continue;
+        if (i)
+            wf_job_warn(
+                job,
+                "%s subframes a second run at %s, since %s shows film at %s frames a second",
+                rate_text(given, (char[48]){0}), rate_text(*rate, (char[48]){0}),
+                job->raster.name, rate_text(film, (char[48]){0}));
+        return WEFT_OK;
+    }
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: --cadence 2:3 takes film, 24 or 23.976 frames a second of one subframe "
+                   "or more, such as 192, and not %s subframes a second",
+                   job->inputs[0], rate_text(given, (char[48]){0}));
+}
+
+/* ---- Fields ---- */
+
+/* Bands follow the chunks of the first file; others may differ and cost a little more. Whole
+ * pictures are cut so that a band's sums stay in a core's cache. */
+static void choose_bands(const subframes *s, wf_resample_desc *desc) {
+    desc->band_rows = s->first.band_lines > 0 && !s->first.whole ? s->first.band_lines : 16;
+    while (desc->band_rows < 16) desc->band_rows *= 2;
+    desc->band_origin = s->first.data.y0 - s->first.display.y0;
+}
+
+static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
+    const weft_job *job = run->job;
+    const subframes *s = run->source;
+    wf_resample_desc desc = {
+        .raster = &job->raster,
+        .aperture = job->aperture,
+        .timing = {.raster = &job->raster,
+                   .subframe_rate = rate,
+                   .subframe_center = job->subframe_time_center,
+                   .subframes = (int64_t)run->setup.sequence.count,
+                   .width = wf_setup_width(job),
+                   .position = job->shutter_position,
+                   .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)},
+        .channels = s->options.want_alpha && s->first.has_alpha ? 4 : 3,
+        .background = {job->background[0], job->background[1], job->background[2]},
+    };
+    wf_fit_picture(job, &s->first, &desc.x, &desc.y);
+    choose_bands(s, &desc);
+    return desc;
+}
+
+static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err) {
+    subframes *s = run->source;
+    const wf_resample_desc desc = describe_fields(run, rate);
+    int64_t frames = wf_timing_frames(&desc.timing);
+    char why[512];
+    if (frames < 1)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: %zu subframes at %" PRId64 "/%" PRId64
+            " a second do not fill one frame of %s; select more, or check --subframe-rate",
+            run->job->inputs[0], run->setup.sequence.count, rate.num, rate.den,
+            run->job->raster.name);
+    wf_setup_frames(run->job, &run->setup, 0, frames);
+    s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
+    if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
+    return WEFT_OK;
+}
+
+static weft_status count(wf_run *run, weft_error *err) {
+    const subframes *s = run->source;
+    wf_rational rate = {0, 0};
+    weft_status status = find_input(run, err);
+    if (!status) status = settle_rate(run->job, run, &rate, err);
+    if (!status && run->job->raster.pulldown) status = settle_film(run->job, &rate, err);
+    if (!status) status = settle_fields(run, rate, err);
+    if (!status) wf_start_timecode(run->job, &run->setup, &s->first);
+    return status;
+}
+
+static wf_needs needs(const wf_run *run, int64_t field) {
+    const subframes *s = run->source;
+    wf_window window = wf_resampler_window(s->resampler, field);
+    return (wf_needs){window.first, window.first + window.count};
+}
+
+/* ---- Missing subframes ---- */
+
+static void number_text(wf_rational number, char *text, size_t size) {
+    if (number.den == 1)
+        snprintf(text, size, "%lld", (long long)number.num);
+    else
+        snprintf(text, size, "%.9g", wf_ratio_value(number));
+}
+
+/* How many missing subframes the fields of this chunk need; *first is the first of them. */
+static size_t count_missing(const wf_run *run, int64_t *first) {
+    const wf_sequence *sequence = &run->setup.sequence;
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    size_t missing = 0;
+    int64_t k = 0, end = run->setup.end_frame * per_frame;
+    for (int64_t n = run->setup.first_frame * per_frame; sequence->missing && n < end; n++) {
+        wf_needs of = needs(run, n);
+        for (k = k > of.first ? k : of.first; k < of.end; k++)
+            if (!sequence->refs[k].path && !missing++) *first = k;
+    }
+    return missing;
+}
+
+/* Faces what is missing: it is an error, or people are told what takes its place. */
+static weft_status start(wf_run *run, weft_error *err) {
+    const weft_job *job = run->job;
+    int64_t first = 0;
+    char number[32];
+    size_t missing = wf_frames_all_there(job, &run->setup) ? 0 : count_missing(run, &first);
+    if (!missing) return WEFT_OK;
+    number_text(run->setup.sequence.refs[first].number, number, sizeof number);
+    if (job->on_missing == WF_MISSING_ERROR)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: subframe %s is missing (%zu of the %zu selected are missing and needed); "
+            "render it, or give --on-missing hold or black",
+            job->inputs[0], number, missing, run->setup.sequence.count);
+    run->report->degraded = true;
+    wf_job_warn(
+        job, "%s: %zu missing subframes, the first is %s: %s", job->inputs[0], missing, number,
+        job->on_missing == WF_MISSING_HOLD ? "their neighbours are held" : "they are black");
+    return WEFT_OK;
+}
+
+/* ---- Reading ---- */
+
+/* The subframe shown at k: itself, or where it is missing and held, its nearest neighbor. */
+static const wf_subframe_ref *shown_at(const wf_run *run, int64_t k) {
+    const wf_sequence *sequence = &run->setup.sequence;
+    if (sequence->refs[k].path || run->job->on_missing == WF_MISSING_BLACK)
+        return &sequence->refs[k];
+    for (int64_t earlier = k; earlier-- > 0;)
+        if (sequence->refs[earlier].path) return &sequence->refs[earlier];
+    size_t later = (size_t)k;
+    while (later < sequence->count && !sequence->refs[later].path) later++;
+    return &sequence->refs[later < sequence->count ? later : (size_t)k];
+}
+
+static bool same(const wf_run *run, int64_t a, int64_t b) {
+    return shown_at(run, a) == shown_at(run, b);
+}
+
+static weft_status check_size(const wf_run *run, const char *path, const wf_image_info *info,
+                              weft_error *err) {
+    const subframes *s = run->source;
+    wf_box a = s->first.display, b = info->display;
+    if (a.x1 - a.x0 == b.x1 - b.x0 && a.y1 - a.y0 == b.y1 - b.y0) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its display window is %dx%d, the sequence began with %dx%d; all subframes "
+        "must have one size",
+        path, b.x1 - b.x0, b.y1 - b.y0, a.x1 - a.x0, a.y1 - a.y0);
+}
+
+static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
+                                weft_error *err) {
+    const subframes *s = run->source;
+    const wf_subframe_ref *ref = shown_at(run, k);
+    if (!ref->path) return WEFT_OK;
+    weft_status status = wf_subframe_open(ref->path, ref->part, &s->options, out, err);
+    return status ? status : check_size(run, ref->path, wf_subframe_info(*out), err);
+}
+
+/* Whole pictures in memory at once, where a format cannot be read by chunks. */
+#define MOST_WHOLE_BYTES ((size_t)256 << 20)
+
+static int open_together(const wf_image_info *info) {
+    if (!info->whole) return WF_UNITS_TOGETHER;
+    size_t samples =
+        (size_t)(info->data.x1 - info->data.x0) * (size_t)(info->data.y1 - info->data.y0);
+    size_t pictures = MOST_WHOLE_BYTES / (samples * 4 * sizeof(float) + 1);
+    return pictures < 1 ? 1 : pictures > WF_UNITS_TOGETHER ? WF_UNITS_TOGETHER : (int)pictures;
+}
+
+static wf_picture_desc describe(const wf_run *run) {
+    const subframes *s = run->source;
+    return (wf_picture_desc){s->resampler, &s->options, open_together(&s->first), s->end_field};
+}
+
+static int64_t opens(const wf_run *run, const wf_units *units, bool *needed) {
+    int64_t opened = 0;
+    for (int i = 0; i < units->count; i++) {
+        const wf_subframe_ref *shown = shown_at(run, units->unit[i]);
+        if (!shown->path) continue;
+        needed[shown - run->setup.sequence.refs] = true;
+        opened += !i || !same(run, units->unit[i - 1], units->unit[i]);
+    }
+    return opened;
+}
+
+/* ---- Report ---- */
+
+/* The numbers of the selection that have no file. */
+static wf_rational *list_missing(const wf_sequence *sequence) {
+    wf_rational *numbers = malloc((sequence->missing + 1) * sizeof *numbers);
+    size_t n = 0;
+    for (size_t k = 0; numbers && k < sequence->count; k++)
+        if (!sequence->refs[k].path) numbers[n++] = sequence->refs[k].number;
+    return numbers;
+}
+
+static void tell(const wf_run *run, wf_report *report) {
+    const wf_sequence *sequence = &run->setup.sequence;
+    report->listed = (int64_t)sequence->count;
+    report->missing = list_missing(sequence);
+    report->missing_count = report->missing ? sequence->missing : 0;
+    if (!run->finished || !report->nan_fixed) return;
+    report->degraded = true;
+    wf_job_warn(run->job, "%lld pixels of the input were NaN or infinite: %s",
+                (long long)report->nan_fixed,
+                run->job->nan_fix == WF_NAN_BLACK ? "they are black"
+                                                  : "they are the means of their neighbours");
+}
+
+static const wf_picture_reading reading = {
+    .describe = describe,
+    .open = open_picture,
+    .same = same,
+};
+
+const wf_source_kind wf_source_subframes = {
+    .name = "subframes",
+    .takes = takes,
+    .open = open_input,
+    .count = count,
+    .start = start,
+    .needs = needs,
+    .summing = &wf_summing_pictures,
+    .pictures = &reading,
+    .tell = tell,
+    .close = close_input,
+    .opens = opens,
+};
