@@ -68,7 +68,13 @@ void wf_json_int(wf_json *json, const char *key, int64_t value) {
 }
 
 void wf_json_real(wf_json *json, const char *key, double value) {
-    add(json, key, isfinite(value) ? json_real(value) : json_null());
+    char digits[32];
+    snprintf(digits, sizeof digits, "%.9g", value);
+    bool whole = !digits[strspn(digits, "-0123456789")];
+    add(json, key,
+        !isfinite(value) ? json_null()
+        : whole          ? json_integer(strtoll(digits, NULL, 10))
+                         : json_real(value));
 }
 
 void wf_json_bool(wf_json *json, const char *key, bool value) {

@@ -25,7 +25,7 @@ void wf_json_close(wf_json *json);
 /* NULL becomes null. File names may hold any bytes: those that are not UTF-8 become U+FFFD. */
 void wf_json_text(wf_json *json, const char *key, const char *value);
 void wf_json_int(wf_json *json, const char *key, int64_t value);
-/* Nine digits of it; what is not finite becomes null. */
+/* Nine digits of it, without a point where they are whole; what is not finite becomes null. */
 void wf_json_real(wf_json *json, const char *key, double value);
 void wf_json_bool(wf_json *json, const char *key, bool value);
 

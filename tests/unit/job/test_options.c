@@ -11,6 +11,7 @@
 
 #include "convert/base/values.h"
 #include "convert/job/job.h"
+#include "convert/job/options.h"
 #include "filters/base/spelling.h"
 
 /* Any text will do for these: what it names is looked for when the job runs. */
@@ -59,6 +60,7 @@ static void rows_are_complete(void **state) {
         assert_true(a.help && a.help[strlen(a.help) - 1] == '.' &&
                     isupper((unsigned char)*a.help));
         assert_true(a.group && *a.group);
+        assert_true(wf_option_commands(count));
         for (const char *c = a.name; *c; c++)
             assert_true(islower((unsigned char)*c) || *c == '-');
         for (size_t i = 0; i < count; i++)
@@ -74,6 +76,7 @@ static void rows_are_complete(void **state) {
     }
     assert_true(count > 30);
     assert_false(weft_option_at(count, &a));
+    assert_int_equal(wf_option_commands(count), 0);
 }
 
 /* A preset that is a value, and not a saying for people, changes nothing in a new job. */
@@ -352,7 +355,7 @@ static void sizes(void **state) {
     }
 }
 
-static void near_names(void **state) {
+static void spellings(void **state) {
     (void)state;
     const struct {
         const char *text, *candidates[3], *best;
@@ -383,7 +386,7 @@ int main(void) {
         cmocka_unit_test(contradictions),
         cmocka_unit_test(what_goes_together),
         cmocka_unit_test(sizes),
-        cmocka_unit_test(near_names),
+        cmocka_unit_test(spellings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
