@@ -3,7 +3,7 @@
 
 #include <stdatomic.h>
 
-#include "convert/run/run.h"
+#include "convert/run/flow.h"
 #include "convert/run/tile_cache.h"
 #include "filters/gather/samples.h"
 

@@ -2,7 +2,7 @@
  * its dry run walk alike. */
 #include "convert/run/needs.h"
 
-#include "convert/run/run.h"
+#include "convert/run/flow.h"
 
 wf_walk wf_walk_begin(void) {
     return (wf_walk){.next_unit = INT64_MIN};

@@ -158,17 +158,6 @@ static weft_status launch(wf_run *run, int64_t index, weft_error *err) {
     return WEFT_OK;
 }
 
-void wf_pictures_finish_line(wf_run *run, wf_worker *worker, const wf_field *field, int line) {
-    const wf_pictures *p = run->sums;
-    int64_t index = wf_field_index(field);
-    float *rgb[3];
-    double start = wf_now_s();
-    wf_frames_place(run->frames, worker, index, line, rgb);
-    wf_field_line(field, line, p->scratch[worker->number], rgb);
-    worker->resample_s += wf_now_s() - start;
-    wf_frames_line(run->frames, worker, index, line);
-}
-
 static void finish_line(void *user, wf_worker *worker, int line) {
     wf_run *run = user;
     const wf_pictures *p = run->sums;

@@ -2,7 +2,7 @@
 #define WF_CONVERT_RUN_PICTURES_H
 
 #include "convert/read/source.h"
-#include "convert/run/run.h"
+#include "convert/run/flow.h"
 #include "filters/resample/resampler.h"
 
 /* Fields summed from pictures: a unit of time is one picture, read band by band. */
@@ -43,10 +43,10 @@ typedef struct wf_pictures {
     int64_t opened;
 } wf_pictures;
 
-/* wf_summing's add. (pictures_bands.c) */
+/* (pictures_bands.c) wf_summing's add. */
 weft_status wf_pictures_add(wf_run *run, const wf_units *units, weft_error *err);
 
-/* Takes line `line` of a complete field through color into its frame. */
+/* (pictures_bands.c) Takes line `line` of a complete field through color into its frame. */
 void wf_pictures_finish_line(wf_run *run, wf_worker *worker, const wf_field *field, int line);
 
 #endif

@@ -146,6 +146,17 @@ static weft_status add_pictures(const batch *b, wf_worker *worker, int band) {
     return WEFT_OK;
 }
 
+void wf_pictures_finish_line(wf_run *run, wf_worker *worker, const wf_field *field, int line) {
+    const wf_pictures *p = run->sums;
+    int64_t index = wf_field_index(field);
+    float *rgb[3];
+    double start = wf_now_s();
+    wf_frames_place(run->frames, worker, index, line, rgb);
+    wf_field_line(field, line, p->scratch[worker->number], rgb);
+    worker->resample_s += wf_now_s() - start;
+    wf_frames_line(run->frames, worker, index, line);
+}
+
 /* Finishes the lines that have seen their last band, while their sums are in the caches. */
 static void finish_lines(const batch *b, wf_worker *worker, int band) {
     for (int f = 0; f < b->field_count; f++) {

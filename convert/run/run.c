@@ -1,6 +1,6 @@
 /* A job from beginning to end:
  * job -> source -> needs of field n -> accumulate -> color -> chroma -> quantise -> sink. */
-#include "convert/run/run.h"
+#include "convert/run/flow.h"
 
 #include <stdlib.h>
 

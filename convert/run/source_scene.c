@@ -128,6 +128,10 @@ static weft_status count(wf_run *run, weft_error *err) {
     return status;
 }
 
+const char *wf_scene_space(const wf_run *run) {
+    return run->setup.scene_space ? run->setup.scene_space : "lin_rec709";
+}
+
 /* ---- Samples ---- */
 
 wf_sampling_desc wf_scene_sampling(const weft_job *job, const wf_scene *scene) {

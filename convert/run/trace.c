@@ -27,10 +27,6 @@ static weft_status check_widths(const weft_job *job, const wf_scene *scene, weft
                    job->inputs[0]);
 }
 
-const char *wf_store_space(const wf_run *run) {
-    return run->setup.scene_space ? run->setup.scene_space : "lin_rec709";
-}
-
 static weft_status store(wf_run *run, weft_error *err) {
     const wf_scene_source *source = run->source;
     int64_t first, end;

@@ -1,7 +1,7 @@
 #ifndef WF_CONVERT_RUN_TRACE_H
 #define WF_CONVERT_RUN_TRACE_H
 
-#include "convert/run/run.h"
+#include "convert/run/flow.h"
 
 /* weft trace: stores what a scene shows, for weft convert to read: the samples themselves, a
  * deep EXR file a frame, or subframes. */
@@ -16,8 +16,5 @@ enum { WF_TRACE_ROWS = 8 };
  * that of the whole run, whatever the chunk. */
 weft_status wf_store_samples(wf_run *run, int64_t last_frame, weft_error *err);
 weft_status wf_store_subframes(wf_run *run, weft_error *err);
-
-/* The colors that a scene's samples are in, where the job does not say. */
-const char *wf_store_space(const wf_run *run);
 
 #endif

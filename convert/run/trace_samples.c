@@ -257,7 +257,7 @@ static weft_status trace_file(tracing *t, const char *path, int64_t frame, int64
     const file_units units = units_of(t, frame, last_frame);
     weft_status status = turn_to(t, &units, err);
     if (!status)
-        status = wf_deep_writer_new(path, &job->raster, wf_store_space(t->run),
+        status = wf_deep_writer_new(path, &job->raster, wf_scene_space(t->run),
                                     job->overwrite || job->resume, &t->file, err);
     if (status) return status;
     wf_crew_in_order(crew, (job->raster.lines + WF_TRACE_ROWS - 1) / WF_TRACE_ROWS, make_band,

@@ -40,7 +40,7 @@ static void turn_to_subframes(subframes *f) {
     s->end_frame *= f->per_frame;
     s->output_options.raster = &f->raster;
     s->output_options.timecode = NULL;
-    s->output_options.color_space = wf_store_space(f->run);
+    s->output_options.color_space = wf_scene_space(f->run);
     s->output_options.subframe_rate = f->rate;
     wf_setup_tell_frames(s);
 }

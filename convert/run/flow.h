@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_RUN_H
-#define WF_CONVERT_RUN_RUN_H
+#ifndef WF_CONVERT_RUN_FLOW_H
+#define WF_CONVERT_RUN_FLOW_H
 
 #include "convert/finish/crew.h"
 #include "convert/finish/frames.h"
