@@ -22,10 +22,9 @@ static double down(const wf_axes *a, double y) {
     return wf_scale_at(&a->y, y);
 }
 
-/* A line that leaves the axes goes on for their height beyond them, where it is cut off. */
-static double down_or_beyond(const wf_axes *a, double y) {
-    double far = a->box.height;
-    return fmin(fmax(down(a, y), a->box.y - far), a->box.y + 2 * a->box.height);
+/* A line that leaves the axes goes on for their size beyond them, where it is cut off. */
+static double at_most_beyond(double place, double start, double size) {
+    return fmin(fmax(place, start - size), start + 2 * size);
 }
 
 static void draw_line(wf_canvas *c, const wf_axes *a, const wf_plot_item *item) {
@@ -37,8 +36,8 @@ static void draw_line(wf_canvas *c, const wf_axes *a, const wf_plot_item *item) 
         return;
     }
     for (size_t i = 0; i < item->points; i++) {
-        place[i] = across(a, item->x[i]);
-        place[item->points + i] = down_or_beyond(a, item->y[i]);
+        place[i] = at_most_beyond(across(a, item->x[i]), a->box.x, a->box.width);
+        place[item->points + i] = at_most_beyond(down(a, item->y[i]), a->box.y, a->box.height);
     }
     c->on->clip(c, &inside);
     c->on->line(c, &pen, place, place + item->points, item->points);

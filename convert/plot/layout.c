@@ -96,8 +96,8 @@ static void choose_ticks(wf_scale *s, double low, double high) {
     size_t m = 0;
     while (m < 4 && span / (step * multiples[m]) > 6) m++;
     step *= multiples[m];
-    for (double k = ceil(low / step - 1e-9); k <= floor(high / step + 1e-9); k++)
-        add_tick(s, k * step);
+    double first = ceil(low / step - 1e-9), last = floor(high / step + 1e-9);
+    for (int i = 0; i < 8 && first + i <= last; i++) add_tick(s, (first + i) * step);
 }
 
 static void settle_ticks(wf_scale *s, const wf_plot_axis *axis) {

@@ -2,7 +2,7 @@
 # weft plot: where points land in SVG and PNG by the formula of the axes, what is refused and with which
 # words, and that a file is whole or not there.
 . "$WEFT_SOURCE/tests/program/script.sh"
-has python3 || exit 77
+needs python3
 
 # The axes of a plot of 560x320 reach from 66 to 546 and, upwards, from 274 to 12.
 cat >all.json <<'END'
@@ -100,6 +100,8 @@ echo '{' >bad.json
 check "bad data" exits 2 weft plot bad.json -o kept.svg
 check "what was there stays" cmp -s all.svg kept.svg
 [ ! -c /dev/full ] || check "a full device" exits 1 bash -c 'timeout 250 "$WEFT" plot all.json -o - >/dev/full'
+echo '{"x": {"low": 1e17, "high": 100000000000000064}, "items": [{"kind": "line", "points": [[-1e300, 0], [1e300, 1]]}]}' >far.json
+check "ends that doubles hardly tell apart" exits 0 weft plot far.json -o far.svg
 check "help tells every kind" test -z "$(for kind in line points label word rule band boxes map ring; do
     weft plot --help | grep -q "^  $kind  *" || echo $kind; done)"
 finish
