@@ -176,8 +176,10 @@ def steps(page):
 def look(page, text, whole):
     check("nothing plays by itself", page.run("weftPlayer.loaded.then(function () { return "
                                               "weftPlayer.ready && !weftPlayer.playing; })"))
-    pictures = page.run("""Promise.all(Array.from(document.images).map(function (i) {
-        return i.decode().then(function () { return i.naturalWidth; }, function () { return 0; }); }))""")
+    pictures = page.run("""Promise.all(Array.from(document.querySelectorAll('img, svg image')).map(function (i) {
+        var copy = new Image();
+        copy.src = i.src || i.href.baseVal;
+        return copy.decode().then(function () { return copy.naturalWidth; }, function () { return 0; }); }))""")
     check("pictures are there", len(pictures) >= (30 if whole else 1) and min(pictures) > 0, str(pictures))
     charts = page.run("""Array.from(document.querySelectorAll('.plot > svg')).map(function (s) {
         return s.getBoundingClientRect().height > 50 &&
