@@ -228,7 +228,7 @@ static weft_status start(wf_run *run, weft_error *err) {
     run->report->degraded = true;
     wf_job_warn(
         job, "%s: %zu missing subframes, the first is %s: %s", job->inputs[0], missing, number,
-        job->on_missing == WF_MISSING_HOLD ? "their neighbours are held" : "they are black");
+        job->on_missing == WF_MISSING_HOLD ? "their neighbors are held" : "they are black");
     return WEFT_OK;
 }
 
@@ -319,7 +319,7 @@ static void tell(const wf_run *run, wf_report *report) {
     wf_job_warn(run->job, "%lld pixels of the input were NaN or infinite: %s",
                 (long long)report->nan_fixed,
                 run->job->nan_fix == WF_NAN_BLACK ? "they are black"
-                                                  : "they are the means of their neighbours");
+                                                  : "they are the means of their neighbors");
 }
 
 static const wf_picture_reading reading = {

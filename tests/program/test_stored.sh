@@ -29,6 +29,14 @@ check "subframes" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --fram
     --oversample 2x2x4 -o sub.####.exr
 check "eight of them" test "$(find . -name 'sub.*.exr' | wc -l)" = 8
 check "which say what they are" exits 0 weft convert sub.####.exr "${small[@]}" -o sub.y4m
+check "samples are not written over" refuses 'would replace an input' convert d.####.exr "${small[@]}" \
+    --overwrite -o d.####.exr
+# shellcheck disable=SC2086
+check "samples once" exits 0 weft convert d.####.exr "${small[@]}" $how -o once.y4m
+cp -p once.y4m before.y4m
+# shellcheck disable=SC2086
+check "resumed when all is there" exits 0 weft convert d.####.exr "${small[@]}" $how --resume -o once.y4m
+check "which makes nothing again" test ! once.y4m -nt before.y4m
 check "a raster that is not theirs" fails "${width}x$lines" weft convert d.####.exr -o x.y4m
 check "samples of half a field" exits 0 weft trace "$scenes/carousel.lua" "${small[@]}" --samples 8 \
     --frames 0 --overwrite -o d.####.exr
