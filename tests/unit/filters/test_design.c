@@ -15,6 +15,7 @@
 #include "filters/aperture/design.h"
 #include "filters/aperture/flicker.h"
 #include "filters/aperture/qp.h"
+#include "tests/unit/support/sizes.h"
 #include "tests/unit/support/zoneplate.h"
 
 static wf_aperture named(const char *name) {
@@ -321,7 +322,7 @@ static bool within(const wf_design_wish *w, const wf_stairs *s, double held, dou
 
 static void designs_keep_their_limits(void **state) {
     (void)state;
-    for (size_t n = 0; n < WISHES; n++) {
+    for (size_t n = 0; n < WISHES; n += (size_t)test_step(4)) {
         wf_design_wish w;
         wf_design d = solved(wishes[n], &w);
         print_message("%-44s flicker %.4f, %.3f at 0.25, gap %.0e, %d steps\n", wishes[n],
@@ -356,7 +357,7 @@ static void nothing_flickers_less(void **state) {
     (void)state;
     uint64_t dice_state = 7;
     int tried = 0;
-    for (size_t n = 0; n < 10; n++) {
+    for (size_t n = 0; n < 10; n += (size_t)test_step(3)) {
         wf_design_wish w, inner;
         wf_design best = solved(wishes[n], &w), safe;
         char why[512];
@@ -389,7 +390,7 @@ static void nothing_flickers_less(void **state) {
 static void wishes_are_answered(void **state) {
     static const double most_overshoot[] = {0, 0.05};
     (void)state;
-    for (int n = 0; n < 2 * 10 * 8; n++) {
+    for (int n = 0; n < 2 * 10 * 8; n += test_step(23)) {
         double part = n % 8 / 8.0, lines = 1.5 + n / 8 % 10 * 0.5;
         wf_design_wish w = {.support = lines,
                             .overshoot = most_overshoot[n / 80],
@@ -430,7 +431,7 @@ static void certificates_are_true(void **state) {
         assert_true(d.sharpest == (d.flicker < w.flicker - 1e-3));
         w.sharps = 1;
         w.flicker = 0;
-        for (w.sharp[0] = 0.1; w.sharp[0] < 1.2; w.sharp[0] += 0.01) {
+        for (w.sharp[0] = 0.1; w.sharp[0] < 1.2; w.sharp[0] += 0.01 * test_step(10)) {
             if (!wf_design_solve(&w, &other, why, sizeof why)) break;
             double sharp = wf_stairs_response(&other.stairs, w.at[0]);
             if (d.sharpest)
@@ -454,7 +455,7 @@ static void limits_have_their_price(void **state) {
     wf_design_wish w;
     for (size_t n = 0; n < sizeof dearer / sizeof *dearer; n++)
         assert_true(solved(dearer[n][0], &w).flicker < solved(dearer[n][1], &w).flicker - 1e-4);
-    for (double flicker = 0.03; flicker < 0.085; flicker += 0.01) {
+    for (double flicker = 0.03; flicker < 0.085; flicker += 0.01 * test_step(3)) {
         char text[64];
         snprintf(text, sizeof text, "flicker=%.3f", flicker);
         wf_design d = solved(text, &w);
