@@ -1,6 +1,6 @@
 /* Makes a sequence of high-rate EXR subframes without a renderer: what interlaced television
  * finds hard (a spoked wheel, a running zone plate, drifting near-horizontal lines, a small
- * fast light) and a row of colour patches to judge colour by.
+ * fast light) and a row of color patches to judge color by.
  *
  *     make_subframes DIRECTORY [COUNT]
  *
@@ -50,7 +50,7 @@ static float clamp01(float t) {
 }
 
 /* How much of a pixel lies on the positive side of an edge at signed distance d from its
- * centre, while the edge travels over motion pixels: a unit step convolved with boxes of width
+ * center, while the edge travels over motion pixels: a unit step convolved with boxes of width
  * 1 and motion. */
 static float edge(float d, float motion) {
     if (motion < 0.01f) return clamp01(d + 0.5f);

@@ -162,6 +162,62 @@ none "C++ is only where a library has no C interface" \
 
 text=$(find CMakeLists.txt README.md LICENSE .clang-format "${folders[@]}" tests examples -type f \
     ! -path 'tests/fuzz/corpus/*' ! -path '*/__pycache__/*' ! -name '*.png' ! -name '*.exr' ! -name test_structure.sh)
+
+# ---- Words and sizes ----
+
+# What is wrong with the files named, one a line: FILE:LINE.
+without_opener() { awk 'FNR == 1 && !/^\/[*\/]/ { print FILENAME ":1" }' "$@"; }
+cited_pages()
+{
+    grep -n -E '\<(cli|colour|flicker|house|input|key|measure|performance|plan|rasters|resampling|samples|shutter|speed2|style|tracer)\.md\>' \
+        /dev/null "$@"
+}
+british_words()
+{
+    grep -n -i -E 'colour|centre|\<grey|neighbour|behaviour|favour|honour|licence|(normal|quant|organ|initial|optim|recogn)is(e|ing|ation)' \
+        /dev/null "$@"
+}
+words_of_before()
+{
+    grep -n -E '\<(wf_)?(foresee|collide|unshelf|shelve)[a-z_]*\>|\<wf_(near|spread|mend|strips|shelf|claims|turns|twice)(_[a-z_]*)?\>|"[a-z/]*/(near|spread|mend|strips|shelf|foresee|collide|claims|turns|twice)\.h"' \
+        /dev/null "$@"
+}
+# Functions over 45 lines. A definition begins in the first column, and so does the brace that ends it.
+long_functions()
+{
+    awk 'FNR == 1 { within = 0 }
+        !within && /^[A-Za-z]/ { head = FNR }
+        !within && /\) (noexcept )?\{$/ { within = 1 }
+        /^\}/ { if (within && FNR - head >= 45) print FILENAME ":" head ": " FNR - head + 1 " lines"; within = 0 }' "$@"
+}
+
+c_files=$(sources -name '*.c' -o -name '*.cpp' | sort)
+c_tests=$(find tests examples -name '*.c')
+pending() { grep -v '^convert/run/'; } # until that room is through
+# shellcheck disable=SC2086
+{
+    none "every source file opens with what it is for" "$(without_opener $c_files $c_tests | pending)"
+    none "no page is cited that is not in the repository" "$(cited_pages $text)"
+    none "spelling is American" "$(british_words $text | pending)"
+    none "no words of before" "$(words_of_before $text | pending)"
+    none "no function is over 45 lines" "$(long_functions $c_files)"
+}
+for room in convert convert/run convert/read convert/write filters color tracer tests; do
+    none "$room has its page" "$([ -s $room/README.md ] || echo "$room/README.md" | pending)"
+done
+
+# Each of these finds what it is for.
+sin=$(mktemp --suffix .c)
+{
+    echo 'static void wf_spread_all(void) { }'
+    echo '// As resampling.md has it, in Colour.'
+    printf '%s\n' 'int long_one(void) {' "$(yes '    f();' | head -n 44)" '}'
+} >"$sin"
+for finder in without_opener cited_pages british_words words_of_before long_functions; do
+    none "$finder finds one" "$([ "$($finder "$sin" | wc -l)" = 1 ] || { echo "not so:"; $finder "$sin"; })"
+done
+rm -f "$sin"
+
 # shellcheck disable=SC2086
 {
     none "no path of one machine in any file" "$(grep -n -E '(^|[^.A-Za-z])/(work|home|root|Users)/' $text)"

@@ -1,4 +1,4 @@
-/* Time of colour alone on one core, by stage and level of the processor: a 1920x540 field from
+/* Time of color alone on one core, by stage and level of the processor: a 1920x540 field from
  * scene-linear to 10-bit 4:2:2. The target for the shipped spaces is 8 ms a field. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -76,7 +76,7 @@ def read(text, whole):
 # ---- The player's fields, found without it ----
 
 def decode(uri):
-    """Rows of R G B from the page's PNGs: 8 bits, grey or R G B, filters 0 and 1."""
+    """Rows of R G B from the page's PNGs: 8 bits, gray or R G B, filters 0 and 1."""
     data = base64.b64decode(uri.split(",", 1)[1])
     width, lines, _, kind = struct.unpack(">IIBB", data[16:26])
     step, at, body = (3 if kind == 2 else 1), 8, b""

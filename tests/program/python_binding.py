@@ -88,7 +88,7 @@ class Header(unittest.TestCase):
 
 
 def f(v):
-    """The quadratic of resampling.md."""
+    """The quadratic of filters/README.md."""
     v = np.abs(v)
     return np.where(v < 1, 0.5 - v * v / 4, np.where(v < 2, v * v / 4 - v + 1, 0))
 

@@ -12,6 +12,7 @@
 #include "filters/resample/resampler.h"
 #include "filters/resample/rows.h"
 #include "tests/unit/support/reference.h"
+#include "tests/unit/support/sizes.h"
 
 /* ---- A sequence in memory ---- */
 
@@ -273,7 +274,7 @@ static const scenario plain = {
 static void every_aperture_position_and_width(void **state) {
     (void)state;
     const wf_rational widths[] = {{0, 1}, {1, 4}, {1, 1}, {5, 2}};
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (size_t w = 0; w < 4; w++)
             for (int position = 0; position < 3; position++) {
                 scenario s = plain;
@@ -301,7 +302,7 @@ static void awkward_ratios(void **state) {
         {"160x20@30i,tff", "120", 320, 40, 8},
         {"160x20@30i,tff", "120", 240, 30, 8},
     };
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (size_t n = 0; n < sizeof ratios / sizeof *ratios; n++) {
             scenario s = plain;
             s.aperture = apertures[a];
@@ -319,7 +320,7 @@ static void awkward_ratios(void **state) {
 
 static void time_cells_centered_skewed_and_sparse(void **state) {
     (void)state;
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (int variant = 0; variant < 4; variant++) {
             scenario s = plain;
             s.aperture = apertures[a];
@@ -338,7 +339,7 @@ static void data_windows(void **state) {
     (void)state;
     const wf_cells windows[] = {{5, 3, 40, 20}, {-6, -5, 53, 37}, {-3, 4, 20, 40},
                                 {50, 1, 55, 9}, {-9, -9, -2, -1}, {10, 12, 11, 13}};
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (size_t w = 0; w < sizeof windows / sizeof *windows; w++)
             for (int channels = 3; channels <= 4; channels++) {
                 scenario s = plain;
@@ -354,7 +355,7 @@ static void data_windows(void **state) {
 
 static void fits(void **state) {
     (void)state;
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (int fit = 1; fit <= 2; fit++)
             for (int shape = 0; shape < 4; shape++) {
                 scenario s = plain;
@@ -378,7 +379,7 @@ static void constants_stay_constant(void **state) {
     (void)state;
     const char *rasters[] = {"97x62@30i,bff", "24x16@30i,tff", "64x37@25p"};
     const float values[] = {1, 0.18f, 65504, 5.9604645e-8f, 1.0f / 3, 0.7310586f};
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3))
         for (size_t r = 0; r < 3; r++)
             for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
                 scenario s = plain;
@@ -412,7 +413,7 @@ static void constants_stay_constant(void **state) {
 
 static void batches_do_not_change_bits(void **state) {
     (void)state;
-    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++) {
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3)) {
         scenario s = plain;
         s.aperture = apertures[a];
         s.width = (wf_rational){2, 1};

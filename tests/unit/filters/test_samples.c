@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "filters/gather/samples.h"
+#include "tests/unit/support/sizes.h"
 
 #define COUNT 6000
 
@@ -186,7 +187,7 @@ static void the_sums(void **state) {
     static const wf_rational widths[] = {{0, 1}, {1, 2}, {1, 1}, {3, 1}};
     static const char *const rasters[] = {"24x16@30i,bff", "24x17@25p", "24x16@25psf"};
     for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
-        for (int variant = 0; variant < 24; variant++) {
+        for (int variant = 0; variant < 24; variant += test_step(5)) {
             scenario s = {.raster = rasters[variant % 3],
                           .name = apertures[a].name,
                           .aperture = apertures[a].aperture,
@@ -235,7 +236,7 @@ static void bands_merge(void **state) {
 static void what_is_reached(void **state) {
     (void)state;
     for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++)
-        for (int k = 0; k < 200; k++) {
+        for (int k = 0; k < 200; k += test_step(7)) {
             uint32_t seed = (uint32_t)k + 1;
             scenario s = {.raster = k % 2 ? "8x16@30i,bff" : "8x16@25psf",
                           .aperture = apertures[a].aperture,

@@ -109,10 +109,10 @@ static void sums(void **state) {
 
 /* A constant tile is a constant field, through any aperture and over several fields. */
 static void tiles(void **state) {
-    static float grey[3 * 64 * 48];
+    static float gray[3 * 64 * 48];
     static taken t;
     (void)state;
-    for (size_t k = 0; k < sizeof grey / sizeof *grey; k++) grey[k] = 0.375f;
+    for (size_t k = 0; k < sizeof gray / sizeof *gray; k++) gray[k] = 0.375f;
     for (size_t a = 0; weft_aperture_name(a); a++) {
         weft_error err;
         weft_fields *fields;
@@ -124,7 +124,7 @@ static void tiles(void **state) {
         assert_int_equal(weft_fields_new(job, 2, take, &t, &fields, &err), WEFT_OK);
         for (int n = 0; n < 6; n++)
             for (int k = 0; k < 8; k++) {
-                const weft_tile tile = {0, 0, WIDTH, LINES, k / 8.0, n, 64, 48, grey};
+                const weft_tile tile = {0, 0, WIDTH, LINES, k / 8.0, n, 64, 48, gray};
                 if (weft_fields_push_tile(fields, &tile, &err)) fail_msg("%s", err.text);
             }
         assert_int_equal(weft_fields_finish(fields, &err), WEFT_OK);

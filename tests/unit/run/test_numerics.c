@@ -216,7 +216,7 @@ static void rounding_modes_of_codes(void **state) {
 /* ---- Codes ---- */
 
 /* Over a ramp, and over noise, what rounding adds averages out. */
-static void quantiser_bias(void **state) {
+static void quantizer_bias(void **state) {
     enum { COUNT = 1 << 20 };
     static const int depths[] = {8, 10, 12, 16};
     float *signal = malloc(3 * sizeof(float) * COUNT),
@@ -256,7 +256,7 @@ int main(void) {
         cmocka_unit_test(subnormal_input),
         cmocka_unit_test(rounding_modes),
         cmocka_unit_test(rounding_modes_of_codes),
-        cmocka_unit_test(quantiser_bias),
+        cmocka_unit_test(quantizer_bias),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

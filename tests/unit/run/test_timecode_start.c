@@ -13,7 +13,7 @@
 
 enum { SUBFRAMES = 6 };
 
-static float grey(const void *user, int channel, int x, int y) {
+static float gray(const void *user, int channel, int x, int y) {
     (void)user, (void)channel, (void)x, (void)y;
     return 0.25f;
 }
@@ -29,7 +29,7 @@ static void write_subframes(const char *rate, uint32_t timecode) {
                       .type = EXR_PIXEL_HALF,
                       .rate = rate,
                       .timecode = timecode ? timecode + k : 0,
-                      .value = grey};
+                      .value = gray};
         snprintf(name, sizeof name, "in.%04u.exr", k);
         job_path(path, name);
         assert_true(exr_write(path, &p, 1));

@@ -1,3 +1,4 @@
+/* Writes small EXR files of any make for tests, with OpenEXRCore. */
 #include "tests/unit/support/exr_write.h"
 
 #include <stdio.h>

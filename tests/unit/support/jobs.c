@@ -1,3 +1,4 @@
+/* Runs the jobs of a test through the public interface, in a directory of their own. */
 #include "tests/unit/support/jobs.h"
 
 #include <setjmp.h>

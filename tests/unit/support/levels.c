@@ -1,3 +1,5 @@
+/* Runs an operation at every level of the processor on random and extreme input, and compares.
+ */
 #include "tests/unit/support/levels.h"
 
 #include <float.h>

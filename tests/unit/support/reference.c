@@ -1,3 +1,4 @@
+/* The plainest reading of the resampling rules, which the resampler is held to. */
 #include "tests/unit/support/reference.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Renders a scene field by field for tests that know what it should be. */
 #include "tests/unit/support/scene_fields.h"
 
 #include <setjmp.h>

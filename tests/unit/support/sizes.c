@@ -8,4 +8,6 @@ static int is_set(const char *name) {
     return value && *value;
 }
 
-int test_step(int step) { return is_set("WEFT_SANITIZE") && !is_set("WEFT_LONG") ? step : 1; }
+int test_step(int step) {
+    return is_set("WEFT_SANITIZE") && !is_set("WEFT_LONG") ? step : 1;
+}

@@ -1,3 +1,4 @@
+/* The zone plate in closed form, as apertures see it. */
 #include "tests/unit/support/zoneplate.h"
 
 #include <complex.h>

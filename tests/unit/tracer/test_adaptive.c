@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "tests/unit/support/scene_fields.h"
+#include "tests/unit/support/sizes.h"
 
 #define WIDTH  64
 #define LINES  48
@@ -106,7 +107,7 @@ static const struct {
 static void edges_are_found(void **state) {
     (void)state;
     for (size_t n = 0; n < sizeof apertures / sizeof *apertures; n++)
-        for (int k = 0; k < 4; k++)
+        for (int k = 0; k < 4; k += test_step(3))
             for (int moves = 0; moves < 2; moves++) {
                 strip s = {0.13 + 0.31 * k, 0.37 * k - 5, 12.3, moves * 1.7};
                 char text[1024];
@@ -134,7 +135,7 @@ static void edges_are_found(void **state) {
  * first samples. */
 static void thin_things(void **state) {
     (void)state;
-    for (double wide = 0.05; wide < 1; wide *= 2)
+    for (double wide = 0.05; wide<1; wide *= test_step(4)> 1 ? 8 : 2)
         for (int moves = 0; moves < 2; moves++) {
             strip s = {0.41, -3.3, wide, moves * 1.7};
             char text[1024];

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "tests/unit/support/scene_fields.h"
+#include "tests/unit/support/sizes.h"
 #include "tracer/rays/solid.h"
 
 #define WIDTH  64
@@ -96,7 +97,7 @@ static void tangents(void **state) {
         int wrong = 0, rays = 0;
         double worst = 0, nearest = 1;
         uint32_t seed = 5;
-        for (int round = 0; round < 4000; round++) {
+        for (int round = 0; round < 4000; round += test_step(10)) {
             wf_rays r = {.count = WF_PACKET};
             wf_runs runs;
             for (int i = 0; i < WF_PACKET; i++)
@@ -188,7 +189,8 @@ static void tori(void **state) {
         uint32_t seed = 3;
         double worst = 0;
         int found = 0;
-        for (int round = 0; round < 300; round++) {
+        const int rounds = 300 / test_step(10);
+        for (int round = 0; round < rounds; round++) {
             wf_rays r = {.count = WF_PACKET};
             wf_runs runs;
             for (int i = 0; i < WF_PACKET; i++) {
@@ -212,7 +214,7 @@ static void tori(void **state) {
         print_message("torus of R/r %-10.7g: %d ends, at most %.2g off the surface\n",
                       1 / minors[n], found, worst);
         /* Every ray was aimed at the tube. */
-        assert_true(found >= 2 * 300 * WF_PACKET);
+        assert_true(found >= 2 * rounds * WF_PACKET);
         assert_true(worst <= 3e-15 + 3e-16 / minors[n]);
     }
 }

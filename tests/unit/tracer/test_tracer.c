@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "tests/unit/support/scene_fields.h"
+#include "tests/unit/support/sizes.h"
 
 #define WIDTH  64
 #define LINES  48
@@ -57,7 +58,7 @@ static void edges(void **state) {
     } rows[] = {{"line", 0.5}, {"box", 1}};
     (void)state;
     for (size_t n = 0; n < 2; n++)
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < 4; k += test_step(3)) {
             double slope = 0.13 + 0.31 * k, shift = 0.37 * k, sum = 0, bias = 0;
             char text[512];
             snprintf(text, sizeof text,
@@ -118,7 +119,7 @@ static void moving_edges(void **state) {
     static const wf_rational widths[] = {{0, 1}, {1, 4}, {1, 2}, {1, 1}, {2, 1}, {3, 2}};
     static const char *const apertures[] = {"line", "box", "notch"};
     (void)state;
-    for (size_t w = 0; w < sizeof widths / sizeof *widths; w++)
+    for (size_t w = 0; w < sizeof widths / sizeof *widths; w += (size_t)test_step(2))
         for (int position = WF_START; position <= WF_END; position++) {
             double tau = wf_ratio_value(widths[w]), v = pixels_a_field(240), sum = 0;
             double early = position == WF_START ? 0 : position == WF_CENTER ? tau / 2 : tau;
