@@ -142,7 +142,7 @@ void wf_frames_place(const wf_frames *f, const wf_worker *worker, int64_t field,
                                      : own + (size_t)c * (size_t)f->raster->width_px;
 }
 
-/* R'G'B' to codes: chroma, legal colors and quantising. */
+/* R'G'B' to codes: chroma, legal colors and quantizing. */
 static void encode(wf_frames *f, const wf_worker *worker, int64_t field, int line,
                    float *const rgb[3]) {
     slot *frame = slot_of(f, field);

@@ -6,7 +6,7 @@
 #include "convert/finish/setup.h"
 
 /* Frames while they are put together: lines of fields come in any order and from any worker, go
- * through color, chroma and quantising into codes, and whole frames go to the sink. */
+ * through color, chroma and quantizing into codes, and whole frames go to the sink. */
 typedef struct wf_frames wf_frames;
 
 /* Makes planes for as many frames as `fields` consecutive fields can belong to, the first of
