@@ -1,5 +1,5 @@
 /* A job from beginning to end:
- * job -> source -> needs of field n -> accumulate -> color -> chroma -> quantise -> sink. */
+ * job -> source -> needs of field n -> accumulate -> color -> chroma -> quantize -> sink. */
 #include "convert/run/flow.h"
 
 #include <stdlib.h>
@@ -46,7 +46,7 @@ static weft_status accumulate(wf_run *run, flight *f, int64_t first, int64_t end
     return status;
 }
 
-/* Takes the lines of fields first <= n < end through color, chroma and quantising, and frames
+/* Takes the lines of fields first <= n < end through color, chroma and quantizing, and frames
  * that are whole by that to the sink. */
 static weft_status finish(wf_run *run, int64_t first, int64_t end, weft_error *err) {
     int per_frame = wf_raster_fields_per_frame(&run->job->raster);
