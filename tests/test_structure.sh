@@ -201,7 +201,7 @@ c_tests=$(find tests examples -name '*.c')
     none "no words of before" "$(words_of_before $text)"
     none "no function is over 45 lines" "$(long_functions $c_files)"
 }
-for room in convert convert/read convert/write filters color tracer tests; do
+for room in convert convert/run convert/finish convert/read convert/write filters color tracer tests; do
     none "$room has its page" "$([ -s $room/README.md ] || echo "$room/README.md")"
 done
 
