@@ -9,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
 # A file that is compiled for several levels counts as the level that ran most of it.
-find "$build" -path '*/tests/*' -prune -o -name '*.gcda' -print0 |
+find "$build" -path "$build/tests" -prune -o -name '*.gcda' -print0 |
     xargs -0 gcov --no-output --relative-only --source-prefix "$source_dir" 2>/dev/null |
     awk '
         /^File / { file = $2; gsub("\047", "", file) }
