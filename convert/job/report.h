@@ -5,6 +5,7 @@
 
 #include "color/codes/encoding.h"
 #include "convert/base/json.h"
+#include "convert/job/taken.h"
 #include "filters/raster/raster.h"
 
 /* What is known of the legality of the codes written. Shares of the picture are of all pixels
@@ -30,6 +31,7 @@ typedef struct wf_report {
     wf_rational *missing;   /* [missing_count] numbers absent from the selection */
     size_t missing_count;
     int64_t chunks_decoded, chunks_reused, nan_fixed;
+    wf_taken_list taken; /* what the input was taken for: members of "input" */
 
     bool traced; /* false: "tracer" is {} */
     int64_t samples, rays, tiles, tiles_skipped, tiles_reused, fields_reused;
