@@ -84,7 +84,8 @@ convert/job         : filters/* color/* tracer/sample convert/base
 convert/media       : filters/* color/* convert/base convert/job
 convert/media/oiio  : filters/* convert/base convert/job convert/media
 convert/media/libav : filters/* color/* convert/base convert/job convert/media
-convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/*
+convert/read/choice :
+convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/finish

@@ -15,6 +15,13 @@ typedef enum wf_code_range { WF_RANGE_UNSET, WF_RANGE_NARROW, WF_RANGE_FULL } wf
 typedef enum wf_cadence { WF_CADENCE_NONE, WF_CADENCE_2_3 } wf_cadence;
 
 typedef enum wf_command { WF_CONVERT, WF_RENDER, WF_TRACE } wf_command;
+/* How color and alpha are stored. UNSET: as the file says; of a picture: it has no alpha. */
+typedef enum wf_alpha {
+    WF_ALPHA_UNSET,
+    WF_ALPHA_STRAIGHT,
+    WF_ALPHA_PREMULTIPLIED,
+    WF_ALPHA_IGNORED
+} wf_alpha;
 typedef enum wf_nan_fix { WF_NAN_BOX3, WF_NAN_BLACK, WF_NAN_NONE, WF_NAN_ERROR } wf_nan_fix;
 
 #endif

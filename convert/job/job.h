@@ -33,6 +33,7 @@ struct weft_job {
     wf_rational input_par; /* {0,0}: from the files */
     float background[3];   /* scene-linear */
     char *layer, *part;
+    wf_alpha alpha; /* UNSET: as the files say */
 
     char *ocio, *from, *to, *display, *view, *look;
     int bits; /* 0: the output's default */

@@ -79,10 +79,15 @@ static const wf_option_row rows[] = {
     ROW(input, JOBS, "frames", "A-BxS", "all",
         "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",
         set_frames, TEXT(frames)),
-    ROW(input, CONVERT, "layer", "NAME", "the unnamed one",
-        "EXR layer to take: NAME.R, NAME.G, NAME.B.", set_text, TEXT(layer)),
-    ROW(input, CONVERT, "part", "NAME", "the first picture",
+    ROW(input, CONVERT, "layer", "NAME", "the beauty",
+        "EXR layer to take: NAME.R, NAME.G, NAME.B, or R, G, B of a part of that name.",
+        set_text, TEXT(layer)),
+    ROW(input, CONVERT, "part", "NAME", "the beauty's",
         "EXR part to take, by name or number from 0.", set_text, TEXT(part)),
+    ROW(input, CONVERT, "alpha", "straight|premultiplied|ignore", "from the files",
+        "Whether color is yet to be multiplied by alpha, is multiplied already, or is taken as "
+        "if there were no alpha.",
+        set_choice, AT(alpha), .base = WF_ALPHA_STRAIGHT),
     ROW(input, CONVERT, "on-missing", "error|hold|black", "error",
         "What to do about subframes that are needed and absent.", set_choice, AT(on_missing),
         INITIAL),
@@ -180,7 +185,8 @@ static const wf_option_row rows[] = {
 #define ROWS (sizeof rows / sizeof *rows)
 
 /* Choices are stored through unsigned, which is what GCC and Clang make of these enums. */
-_Static_assert(sizeof(wf_fit) == sizeof(unsigned) && sizeof(wf_chroma) == sizeof(unsigned),
+_Static_assert(sizeof(wf_fit) == sizeof(unsigned) && sizeof(wf_alpha) == sizeof(unsigned) &&
+                   sizeof(wf_chroma) == sizeof(unsigned),
                "enums are stored as unsigned");
 
 bool weft_option_at(size_t index, weft_option *out) {

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_MEDIA_IMAGE_H
 #define WF_CONVERT_MEDIA_IMAGE_H
 
+#include "convert/job/choices.h"
 #include "filters/base/rational.h"
 
 /* What files of pictures say of themselves. */
@@ -17,9 +18,11 @@ typedef struct wf_image_info {
     wf_rational rate;     /* weft:subframeRate, else framesPerSecond; {0,0} if neither */
     wf_rational frames;   /* framesPerSecond, which timecode counts; {0,0} if none */
     wf_rational time_s;   /* weft:time; {0,0} if none */
-    bool has_alpha;
-    int band_lines;     /* height of its natural bands: a chunk, a row of tiles; counted from
-                           data.y0. Reading whole bands reads nothing twice. */
+    bool has_alpha;       /* alpha is delivered as a fourth channel */
+    wf_alpha alpha;       /* how its color is stored; WF_ALPHA_UNSET: the file has none */
+    bool alpha_by_file;   /* the file says so itself, and not its format alone */
+    int band_lines;       /* height of its natural bands: a chunk, a row of tiles; counted from
+                             data.y0. Reading whole bands reads nothing twice. */
     bool whole;         /* the reader holds the whole picture (not chunked): open few at once */
     char timecode[16];  /* "" if none */
     bool timecode_mark; /* its field mark: the second of a pair */

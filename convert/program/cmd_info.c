@@ -43,13 +43,60 @@ static void tell_picture(wf_facts *facts, const wf_image_info *info) {
     if (*info->timecode) wf_fact_text(facts, "timecode", info->timecode);
 }
 
+/* What is taken of it without options, and why. */
+static void tell_taken(wf_facts *facts, const wf_subframe *subframe) {
+    wf_taken_list taken = {0};
+    wf_subframe_take(subframe, &taken);
+    if (facts->as_json) {
+        wf_json_open(&facts->json, "input", '{');
+        wf_taken_json(&facts->json, &taken);
+        wf_json_close(&facts->json);
+        return;
+    }
+    for (int i = 0; i < taken.count; i++) {
+        char text[192];
+        const char *value = taken.row[i].value;
+        snprintf(text, sizeof text, "%s (%s)", *value ? value : "without a name",
+                 taken.row[i].reason);
+        wf_fact_text(facts, taken.row[i].key, text);
+    }
+}
+
+/* A layer that the file has: a line, or an object of "layers". */
+static void tell_layer(void *user, int part, const char *part_name, const char *layer,
+                       const char *channels) {
+    wf_facts *facts = user;
+    char text[900];
+    if (facts->as_json) {
+        wf_json_open(&facts->json, NULL, '{');
+        wf_json_int(&facts->json, "part", part);
+        wf_json_text(&facts->json, "part_name", part_name);
+        wf_json_text(&facts->json, "layer", layer);
+        wf_json_text(&facts->json, "channels", channels);
+        wf_json_close(&facts->json);
+        return;
+    }
+    snprintf(text, sizeof text, "part %d%s%s%s: %s (%s)", part, *part_name ? " '" : "",
+             part_name, *part_name ? "'" : "", *layer ? layer : "without a name", channels);
+    wf_fact_text(facts, "has_layer", text);
+}
+
+static weft_status tell_layers(const char *path, wf_facts *facts, weft_error *err) {
+    if (facts->as_json) wf_json_open(&facts->json, "layers", '[');
+    weft_status status = wf_source_layers(path, tell_layer, facts, err);
+    if (facts->as_json) wf_json_close(&facts->json);
+    return status;
+}
+
 static weft_status tell_file(const char *path, int part, wf_facts *facts, weft_error *err) {
     const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
                                        .max_memory_bytes = (size_t)2 << 30};
     wf_subframe *subframe;
+    tell_layers(path, facts, NULL); /* what is wrong with the file is told when it is opened */
     weft_status status = wf_subframe_open(path, part, &options, &subframe, err);
     if (status) return status;
     tell_picture(facts, wf_subframe_info(subframe));
+    tell_taken(facts, subframe);
     wf_subframe_close(subframe);
     return WEFT_OK;
 }

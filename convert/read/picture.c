@@ -55,8 +55,8 @@ static weft_status read_all(const wf_subframe *subframe, const wf_source_options
 
 bool wf_picture_load(void *user, const char *path, bool srgb, wf_image *out, char *why,
                      size_t why_size) {
-    const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
-                                       .max_memory_bytes = (size_t)1 << 30};
+    const wf_source_options options = {
+        .alpha = WF_ALPHA_IGNORED, .nan_fix = WF_NAN_BOX3, .max_memory_bytes = (size_t)1 << 30};
     wf_subframe *subframe;
     weft_error err = {""};
     (void)user;

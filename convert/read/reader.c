@@ -33,6 +33,7 @@ void wf_reader_free(wf_reader *r) {
     free(r->tile);
     free(r->plain);
     free(r->edges);
+    free(r->light);
     free(r);
 }
 
@@ -353,6 +354,7 @@ static weft_status read_edges(wf_reader *r, const wf_subframe *s, wf_nan_fixer *
     if (!wf_reserve(&r->edges, &r->edges_capacity, 2 * row * sizeof(float)))
         return no_memory(s, err);
     weft_status status = r->neighbor ? WEFT_OK : wf_reader_new(&options, &r->neighbor, err);
+    if (!status) r->neighbor->stored = true;
     if (!status) status = edge_row(r, s, fixer->rows.y0 - 1, &fixer->above, r->edges, err);
     if (!status) status = edge_row(r, s, fixer->rows.y1, &fixer->below, r->edges + row, err);
     return status;
@@ -389,6 +391,44 @@ static weft_status fix_nan(wf_reader *r, const wf_subframe *s, weft_error *err) 
     return WEFT_OK;
 }
 
+/* ---- Stored samples to light ---- */
+
+static bool copy_to_light(wf_reader *r) {
+    const wf_rows *rows = &r->rows;
+    size_t width = (size_t)(rows->x1 - rows->x0);
+    if (!wf_reserve(&r->light, &r->light_capacity,
+                    (size_t)rows->channels * plane_samples(rows) * sizeof(float)))
+        return false;
+    float *to = r->light;
+    for (int c = 0; c < rows->channels; c++)
+        for (int y = 0; y < rows->y1 - rows->y0; y++, to += width) {
+            size_t at = (size_t)y * rows->line_stride;
+            if (rows->type == WF_HALF)
+                wf_floats_of_halves(to, (const uint16_t *)rows->plane[c] + at, width);
+            else
+                memcpy(to, (const float *)rows->plane[c] + at, width * sizeof *to);
+        }
+    point_at(&r->rows, r->light);
+    return true;
+}
+
+static void multiply_by_alpha(float *planes, size_t samples) {
+    const float *alpha = planes + 3 * samples;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < samples; i++) planes[c * samples + i] *= alpha[i];
+}
+
+/* Rows as a file stores them become rows of light, premultiplied. Codes have to be decoded to
+ * light here, before straight color is multiplied by alpha (and, where encoded color is
+ * premultiplied, between dividing by alpha and multiplying again). */
+static bool bring_to_light(wf_reader *r, const wf_subframe *s) {
+    if (!s->multiplies || r->stored) return true;
+    if (!copy_to_light(r)) return false;
+    multiply_by_alpha(r->light, plane_samples(&r->rows));
+    if (!s->info.has_alpha) r->rows.channels = 3;
+    return true;
+}
+
 weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, wf_rows *rows,
                            weft_error *err) {
     bool changed;
@@ -398,6 +438,7 @@ weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, w
         if (r->decoder.suspect && r->options.nan_fix != WF_NAN_NONE &&
             any_not_finite(r, &r->rows))
             status = fix_nan(r, s, err);
+        if (!status && !bring_to_light(r, s)) status = no_memory(s, err);
     }
     r->held = !status && s->exr;
     if (status) return status;

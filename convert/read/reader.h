@@ -35,6 +35,9 @@ struct wf_reader {
     float *plain, *edges; /* rows as floats; the rows above and below them */
     size_t plain_capacity, edges_capacity;
     wf_reader *neighbor; /* reads those */
+    bool stored;         /* rows are handed out as files store them: it is a neighbor */
+    float *light;        /* rows after wf_reader's last step */
+    size_t light_capacity;
 };
 
 #endif

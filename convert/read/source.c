@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -21,14 +22,11 @@ static weft_status module_entry(const wf_subframe *s, const char *name, void **e
     return status ? wf_fail(err, status, "%s: %s", s->path, why.text) : WEFT_OK;
 }
 
-static weft_status read_whole(wf_subframe *s, const wf_pick *pick, const wf_source_options *o,
-                              weft_error *err) {
-    void *symbol;
+/* Memory for a picture that is read whole. */
+static weft_status make_whole(wf_subframe *s, const wf_source_options *o, weft_error *err) {
     wf_box data = s->info.data;
     uint64_t samples =
-        (uint64_t)(data.x1 - data.x0) * (uint64_t)(data.y1 - data.y0) * (uint64_t)pick->count;
-    weft_status status = module_entry(s, "wf_oiio_read", &symbol, err);
-    if (status) return status;
+        (uint64_t)(data.x1 - data.x0) * (uint64_t)(data.y1 - data.y0) * (uint64_t)s->pick.count;
     if (samples * sizeof(float) > o->max_memory_bytes / 2)
         return wf_fail(err, WEFT_NO_MEMORY,
                        "%s: it must be read whole, which takes %" PRIu64
@@ -38,69 +36,135 @@ static weft_status read_whole(wf_subframe *s, const wf_pick *pick, const wf_sour
     s->whole = malloc((size_t)samples * sizeof *s->whole);
     if (!s->whole)
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the picture", s->path);
+    s->layout.channels = s->pick.count;
     s->info.whole = true;
     s->info.band_lines = 32; /* nothing is read twice, whatever the bands */
-    return ((wf_oiio_read_fn *)symbol)(s->path, s->part, pick->channel, pick->count, &data,
-                                       s->whole, err);
+    return WEFT_OK;
 }
 
-static weft_status pick_from_names(const wf_subframe *s, const wf_source_options *o,
-                                   const char *names, int count, wf_pick *pick,
-                                   weft_error *err) {
-    char why[512];
-    const char **name = malloc((size_t)(count + 1) * sizeof *name);
-    if (!name) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for channel names", s->path);
-    for (int i = 0; i < count; i++, names += strlen(names) + 1) name[i] = names;
-    bool found = wf_pick_channels(name, count, s->layer, o->want_alpha, pick, why, sizeof why);
-    free(name);
+static weft_status read_whole(wf_subframe *s, const wf_source_options *o, weft_error *err) {
+    void *symbol;
+    weft_status status = module_entry(s, "wf_oiio_read", &symbol, err);
+    if (!status) status = make_whole(s, o, err);
+    if (status) return status;
+    return ((wf_oiio_read_fn *)symbol)(s->path, s->part, s->pick.channel, s->pick.count,
+                                       &s->info.data, s->whole, err);
+}
+
+/* ---- Pictures that are no EXR ---- */
+
+/* The one part that a picture is, or a page of a TIFF. */
+static weft_status number_of_part(const wf_subframe *s, const char *wanted, int *part,
+                                  weft_error *err) {
+    char *end = NULL;
+    long number = wanted ? strtol(wanted, &end, 10) : 0;
+    *part = (int)number;
+    if (!wanted || (end != wanted && !*end && number >= 0 && number < 1 << 20)) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: no part '%.80s': only parts of EXR have names; others are numbered "
+                   "from 0",
+                   s->path, wanted);
+}
+
+static weft_status pick_from_names(wf_subframe *s, const wf_source_options *o,
+                                   const char *names, int count, weft_error *err) {
+    char why[900];
+    const wf_wish wish = {.layer = o->layer, .only_part = -1};
+    wf_channel *channel = calloc((size_t)(count + 1), sizeof *channel);
+    if (!channel)
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for channel names", s->path);
+    for (int i = 0; i < count; i++, names += strlen(names) + 1)
+        channel[i] = (wf_channel){.name = names};
+    const wf_part part = {.name = "", .channel = channel, .count = count, .flat = true};
+    bool found = wf_pick_picture(&part, 1, &wish, &s->pick, why, sizeof why);
+    free(channel);
     return found ? WEFT_OK : wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
-/* Asks the module what the picture is. Its order of channels is not the file's. */
+/* Asks the module what the picture is. The channels' names follow each other, in its order,
+ * which is not the file's; owned by the caller. */
 static weft_status probe(const wf_subframe *s, const wf_source_options *o, wf_image_info *info,
-                         wf_pick *pick, weft_error *err) {
+                         int *count, char **names, weft_error *err) {
     void *symbol;
-    char *names = NULL;
-    int count = 0;
     weft_status status = module_entry(s, "wf_oiio_probe", &symbol, err);
-    if (!status)
-        status = ((wf_oiio_probe_fn *)symbol)(s->path, s->part, o->max_memory_bytes, info,
-                                              &count, &names, err);
-    if (!status) status = pick_from_names(s, o, names, count, pick, err);
-    free(names);
-    return status;
+    return status ? status
+                  : ((wf_oiio_probe_fn *)symbol)(s->path, s->part, o->max_memory_bytes, info,
+                                                 count, names, err);
 }
 
 static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int part,
                               weft_error *err) {
-    wf_pick pick;
-    s->layer = o->layer;
-    s->part = part < 0 ? 0 : part;
     const char *format;
-    weft_status status = wf_format_of(s->path, &format, err);
-    if (!status) status = probe(s, o, &s->info, &pick, err);
+    char *names = NULL;
+    int count = 0;
+    s->part = part;
+    weft_status status = part < 0 ? number_of_part(s, o->part, &s->part, err) : WEFT_OK;
+    if (!status) status = wf_format_of(s->path, &format, err);
+    if (!status) status = probe(s, o, &s->info, &count, &names, err);
+    if (!status) status = pick_from_names(s, o, names, count, err);
+    free(names);
     if (status) return status;
-    s->layout.channels = pick.count;
-    s->info.has_alpha = pick.count == 4;
-    return read_whole(s, &pick, o, err);
+    if (part < 0 && o->part) s->pick.part_reason = WF_REASON_OPTION;
+    wf_subframe_settle_alpha(s, o);
+    return read_whole(s, o, err);
+}
+
+/* ---- EXR ---- */
+
+#define NAME_SIZE 256 /* of a channel, '\0' included */
+
+/* The picked channels' places in the module's order, which is not the file's. */
+static weft_status find_again(wf_subframe *s, const wf_source_options *o,
+                              char wanted[4][NAME_SIZE], weft_error *err) {
+    wf_image_info again;
+    char *names = NULL;
+    int count = 0;
+    weft_status status = probe(s, o, &again, &count, &names, err);
+    for (int c = 0; !status && c < s->pick.count; c++) {
+        const char *name = names;
+        int i = 0;
+        while (i < count && strcmp(name, wanted[c])) i++, name += strlen(name) + 1;
+        s->pick.channel[c] = i;
+        if (i == count)
+            status = wf_fail(err, WEFT_FAILED,
+                             "%s: OpenImageIO does not find its channel %s; write it with ZIP",
+                             s->path, wanted[c]);
+    }
+    free(names);
+    return status;
+}
+
+static weft_status read_by_module(wf_subframe *s, const wf_source_options *o, weft_error *err) {
+    char wanted[4][NAME_SIZE];
+    const exr_attr_chlist_t *list = NULL;
+    exr_get_channels(s->exr, s->part, &list);
+    for (int c = 0; c < s->pick.count; c++)
+        snprintf(wanted[c], NAME_SIZE, "%s", list->entries[s->pick.channel[c]].name.str);
+    exr_finish(&s->exr);
+    s->exr = NULL;
+    weft_status status = find_again(s, o, wanted, err);
+    return status ? status : read_whole(s, o, err);
+}
+
+static weft_status read_subsampled(wf_subframe *s, const wf_source_options *o,
+                                   weft_error *err) {
+    weft_status status = make_whole(s, o, err);
+    if (!status) status = wf_exr_read_subsampled(s, s->whole, err);
+    exr_finish(&s->exr);
+    s->exr = NULL;
+    return status;
+}
+
+/* What the header says stands; only pixels that cannot be read by chunks are read at once. */
+static weft_status open_exr(wf_subframe *s, const wf_source_options *o, int part,
+                            weft_error *err) {
+    wf_exr_pixels pixels;
+    weft_status status = wf_exr_open(s, o, part, &pixels, err);
+    if (status || pixels == WF_EXR_CHUNKS) return status;
+    return pixels == WF_EXR_SUBSAMPLED ? read_subsampled(s, o, err) : read_by_module(s, o, err);
 }
 
 /* ---- Opening ---- */
-
-/* Opens an EXR. If its pixels cannot be decoded here, the module reads them; what the header
- * says stays. */
-static weft_status open_exr(wf_subframe *s, const wf_source_options *o, int part,
-                            weft_error *err) {
-    bool needs_module;
-    wf_image_info again;
-    wf_pick pick;
-    weft_status status = wf_exr_open(s, o, part, &needs_module, err);
-    if (status || !needs_module) return status;
-    exr_finish(&s->exr);
-    s->exr = NULL;
-    status = probe(s, o, &again, &pick, err);
-    return status ? status : read_whole(s, &pick, o, err);
-}
 
 static weft_status check_file(const char *path, weft_error *err) {
     struct stat about;

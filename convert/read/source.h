@@ -3,13 +3,16 @@
 
 #include "convert/base/fail.h"
 #include "convert/job/choices.h"
+#include "convert/job/taken.h"
 #include "convert/media/image.h"
+#include "convert/read/choice/pick.h"
 
 /* What the job asks of every subframe. Strings are borrowed and outlive the source. */
 typedef struct wf_source_options {
-    const char *layer; /* channel prefix, NULL: the default layer */
-    const char *part;  /* part name or number, NULL: the first part with a picture */
+    const char *layer; /* channel prefix, NULL: the beauty */
+    const char *part;  /* part name or number, NULL: any */
     bool want_alpha;   /* deliver A as a fourth channel where the file has one */
+    wf_alpha alpha;    /* how color is stored; WF_ALPHA_UNSET: as the file says */
     wf_nan_fix nan_fix;
     size_t max_memory_bytes;
 } wf_source_options;
@@ -18,7 +21,8 @@ typedef enum wf_sample_type { WF_HALF, WF_FLOAT } wf_sample_type;
 
 /* Rows y0 <= y < y1 of one subframe, columns data.x0 .. data.x1: plane[c] is channel c (R, G,
  * B[, A]) at (x0, y0), line_stride samples from line to line. A lone Y is delivered three
- * times. Memory belongs to the reader that made it and lives until its next wf_reader_rows. */
+ * times; Y RY BY as R G B. Color is multiplied by alpha. Memory belongs to the reader that made
+ * it and lives until its next wf_reader_rows. */
 typedef struct wf_rows {
     const void *plane[4];
     size_t line_stride;
@@ -42,6 +46,17 @@ weft_status wf_subframe_open(const char *path, int part, const wf_source_options
                              wf_subframe **out, weft_error *err);
 void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */
 const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
+
+/* Which picture of the file it is: the part's name ("" if it has none, or the file has no
+ * other) and what was picked of it. */
+const char *wf_subframe_part_name(const wf_subframe *subframe);
+const wf_pick *wf_subframe_pick(const wf_subframe *subframe);
+
+/* Adds what the file is taken for: "part", "layer", "channels", "alpha". */
+void wf_subframe_take(const wf_subframe *subframe, wf_taken_list *list);
+
+/* Tells all layers of all parts of an EXR, deep ones too; of other formats none. */
+weft_status wf_source_layers(const char *path, wf_layer_fn *tell, void *user, weft_error *err);
 
 weft_status wf_reader_new(const wf_source_options *options, wf_reader **out, weft_error *err);
 void wf_reader_free(wf_reader *reader);

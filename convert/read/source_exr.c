@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/read/choice/exr_parts.h"
+
 /* Enough for any picture; what a file really may cost is checked against its own length and
  * --max-memory. */
 #define MOST_PIXELS_A_SIDE (1 << 24)
@@ -33,93 +35,20 @@ static const exr_attr_chlist_t *channels_of(exr_const_context_t exr, int part) {
     return exr_get_channels(exr, part, &list) == EXR_ERR_SUCCESS ? list : NULL;
 }
 
-static const char *part_name(exr_const_context_t exr, int part) {
-    const char *name = NULL;
-    return exr_get_name(exr, part, &name) == EXR_ERR_SUCCESS && name ? name : "";
-}
-
-static bool pick_of(exr_const_context_t exr, int part, const char *layer, bool want_alpha,
-                    wf_pick *pick, char *why, size_t why_size) {
-    const exr_attr_chlist_t *list = channels_of(exr, part);
-    if (!list || list->num_channels < 1) {
-        if (why) snprintf(why, why_size, "no channels");
-        return false;
-    }
-    const char **name = malloc((size_t)list->num_channels * sizeof *name);
-    if (!name) {
-        if (why) snprintf(why, why_size, "no memory for the names of its channels");
-        return false;
-    }
-    for (int i = 0; i < list->num_channels; i++) name[i] = list->entries[i].name.str;
-    bool found =
-        wf_pick_channels(name, list->num_channels, layer, want_alpha, pick, why, why_size);
-    free(name);
-    return found;
-}
-
-static bool is_flat(exr_const_context_t exr, int part) {
-    exr_storage_t storage;
-    return exr_get_storage(exr, part, &storage) == EXR_ERR_SUCCESS &&
-           (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
-}
-
-static weft_status refuse_part(const wf_subframe *s, const char *wanted, int parts,
-                               weft_error *err) {
-    char list[512] = "";
-    size_t used = 0;
-    for (int i = 0; i < parts && used + 80 < sizeof list; i++)
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s%d '%.60s'", i ? ", " : "",
-                                 i, part_name(s->exr, i));
-    return wf_fail(err, WEFT_FAILED, "%s: no part '%s'; its parts are %s", s->path, wanted,
-                   list);
-}
-
-/* Finds the part that --part names, by its name or its number. */
-static weft_status named_part(const wf_subframe *s, const char *wanted, int parts, int *part,
-                              weft_error *err) {
-    char *end;
-    long number = strtol(wanted, &end, 10);
-    for (int i = 0; i < parts; i++)
-        if (!strcmp(part_name(s->exr, i), wanted) || (*wanted && !*end && number == i)) {
-            *part = i;
-            return WEFT_OK;
-        }
-    return refuse_part(s, wanted, parts, err);
-}
-
-/* Takes the first part that has the picture asked for. Parts may be layers: one that is
- * called like the layer is taken with its own R G B. */
-static weft_status search_parts(wf_subframe *s, const wf_source_options *o, int parts,
-                                wf_pick *pick, weft_error *err) {
-    char why[512] = "no flat picture, only deep ones";
-    bool complained = false;
-    for (int i = 0; i < parts; i++) {
-        if (!is_flat(s->exr, i)) continue;
-        bool is_layer = o->layer && !strcmp(part_name(s->exr, i), o->layer);
-        s->layer = is_layer ? NULL : o->layer;
-        s->part = i;
-        if (pick_of(s->exr, i, s->layer, o->want_alpha, pick, complained ? NULL : why,
-                    sizeof why))
-            return WEFT_OK;
-        complained = true;
-    }
-    return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
-}
-
-static weft_status choose_part(wf_subframe *s, const wf_source_options *o, int wanted,
-                               wf_pick *pick, weft_error *err) {
-    int parts = 0;
-    exr_get_count(s->exr, &parts);
-    if (wanted < 0 && !o->part) return search_parts(s, o, parts, pick, err);
-    s->part = wanted;
-    weft_status status = wanted < 0 ? named_part(s, o->part, parts, &s->part, err) : WEFT_OK;
-    if (status) return status;
-    char why[512];
-    if (s->part >= parts || !is_flat(s->exr, s->part))
-        return wf_fail(err, WEFT_FAILED, "%s: part %d is not a flat picture", s->path, s->part);
-    if (!pick_of(s->exr, s->part, o->layer, o->want_alpha, pick, why, sizeof why))
-        return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
-    return WEFT_OK;
+/* The picture among all parts; its part and the name of that. */
+static weft_status choose_picture(wf_subframe *s, const wf_source_options *o, int part,
+                                  weft_error *err) {
+    const wf_wish wish = {
+        .layer = o->layer, .part = part < 0 ? o->part : NULL, .only_part = part};
+    char why[900] = "no memory for the names of its channels";
+    wf_exr_parts parts = {0};
+    bool chosen = wf_exr_parts_find(s->exr, &parts) &&
+                  wf_pick_picture(parts.part, parts.count, &wish, &s->pick, why, sizeof why);
+    if (chosen) s->part = s->pick.part;
+    if (chosen && parts.count > 1)
+        snprintf(s->part_name, sizeof s->part_name, "%s", parts.part[s->part].name);
+    wf_exr_parts_free(&parts);
+    return chosen ? WEFT_OK : wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
 /* ---- Layout ---- */
@@ -134,19 +63,31 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t count) {
     return hash;
 }
 
-static weft_status lay_out_channels(wf_subframe *s, const wf_pick *pick, weft_error *err) {
+static weft_status check_channel(const wf_subframe *s, const exr_attr_chlist_entry_t *c,
+                                 weft_error *err) {
+    bool chroma = s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA;
+    if (c->pixel_type == EXR_PIXEL_UINT)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: channel %s holds whole numbers; a picture is half or float",
+                       s->path, c->name.str);
+    if (!chroma && (c->x_sampling != 1 || c->y_sampling != 1))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: channel %s is subsampled %dx%d; channels of a picture are of full "
+                       "size (but RY and BY)",
+                       s->path, c->name.str, c->x_sampling, c->y_sampling);
+    return WEFT_OK;
+}
+
+static weft_status lay_out_channels(wf_subframe *s, weft_error *err) {
     const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    const wf_pick *pick = &s->pick;
     wf_exr_layout *l = &s->layout;
     l->channels = pick->count;
     l->channel_hash = 0xcbf29ce484222325;
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *c = &list->entries[i];
         const int kind[] = {(int)c->pixel_type, c->p_linear};
-        if (c->x_sampling != 1 || c->y_sampling != 1)
-            return wf_fail(
-                err, WEFT_FAILED,
-                "%s: channel %s is subsampled %dx%d; weft reads channels of full size", s->path,
-                c->name.str, c->x_sampling, c->y_sampling);
+        l->subsampled |= c->x_sampling != 1 || c->y_sampling != 1;
         for (int p = 0; p < pick->count; p++)
             if (pick->channel[p] == i)
                 l->before[p] = l->pixel_bytes, l->type[p] = c->pixel_type;
@@ -154,12 +95,10 @@ static weft_status lay_out_channels(wf_subframe *s, const wf_pick *pick, weft_er
         l->channel_hash = hash_bytes(l->channel_hash, c->name.str, strlen(c->name.str) + 1);
         l->channel_hash = hash_bytes(l->channel_hash, kind, sizeof kind);
     }
-    for (int p = 0; p < pick->count; p++)
-        if (l->type[p] == EXR_PIXEL_UINT)
-            return wf_fail(err, WEFT_FAILED,
-                           "%s: channel %s holds whole numbers; a picture is half or float",
-                           s->path, list->entries[pick->channel[p]].name.str);
-    return WEFT_OK;
+    weft_status status = WEFT_OK;
+    for (int p = 0; !status && p < pick->count; p++)
+        status = check_channel(s, &list->entries[pick->channel[p]], err);
+    return status;
 }
 
 static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
@@ -212,6 +151,18 @@ static weft_status read_windows(wf_subframe *s, weft_error *err) {
     return WEFT_OK;
 }
 
+/* Bytes of all samples but those of subsampled channels. */
+static uint64_t least_samples_bytes(const wf_subframe *s) {
+    const wf_exr_layout *l = &s->layout;
+    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    uint64_t pixel_bytes = 0;
+    for (int i = 0; i < list->num_channels; i++)
+        if (list->entries[i].x_sampling == 1 && list->entries[i].y_sampling == 1)
+            pixel_bytes += type_bytes(list->entries[i].pixel_type);
+    return (uint64_t)(l->data.x1 - l->data.x0) * (uint64_t)(l->data.y1 - l->data.y0) *
+           pixel_bytes;
+}
+
 /* Checks, before anything is allocated, that what the header promises fits into the file and
  * that one row of chunks fits into memory. Deflate cannot shrink bytes more than 1032 times. */
 static weft_status check_sizes(const wf_subframe *s, const wf_source_options *o,
@@ -226,13 +177,15 @@ static weft_status check_sizes(const wf_subframe *s, const wf_source_options *o,
     uint64_t least = (uint64_t)chunks * 17;
     bool deflated =
         l->compression == EXR_COMPRESSION_ZIP || l->compression == EXR_COMPRESSION_ZIPS;
-    uint64_t bytes = width * height * l->pixel_bytes;
+    uint64_t bytes = least_samples_bytes(s);
     if (deflated && bytes / 1032 > least) least = bytes / 1032;
     if (l->compression == EXR_COMPRESSION_NONE && bytes > least) least = bytes;
     if (chunks < 1 || least > length)
         return wf_fail(err, WEFT_FAILED,
                        "%s: its header promises %" PRIu64 "x%" PRIu64
-                       " pixels, for which a file of %" PRIu64 " bytes is too short",
+                       " pixels, for which a file of %" PRIu64
+                       " bytes is too short; it may still be "
+                       "being written",
                        s->path, width, height, length);
     uint64_t band = width * (uint64_t)l->chunk_lines * l->pixel_bytes;
     if (band > o->max_memory_bytes / 4)
@@ -242,6 +195,27 @@ static weft_status check_sizes(const wf_subframe *s, const wf_source_options *o,
                        "file with smaller tiles",
                        s->path, band >> 20);
     return WEFT_OK;
+}
+
+/* The table of chunks is written when a file is finished. Its first and its last entry show
+ * whether it has been. */
+static weft_status check_chunks(const wf_subframe *s, weft_error *err) {
+    const wf_exr_layout *l = &s->layout;
+    exr_chunk_info_t chunk;
+    exr_result_t result = EXR_ERR_SUCCESS;
+    int width = l->data.x1 - l->data.x0, height = l->data.y1 - l->data.y0;
+    for (int end = 0; end < 2 && result == EXR_ERR_SUCCESS; end++)
+        result = l->tile_width
+                     ? exr_read_tile_chunk_info(
+                           s->exr, s->part, end ? (width - 1) / l->tile_width : 0,
+                           end ? (height - 1) / l->tile_height : 0, 0, 0, &chunk)
+                     : exr_read_scanline_chunk_info(s->exr, s->part,
+                                                    end ? l->data.y1 - 1 : l->data.y0, &chunk);
+    if (result == EXR_ERR_SUCCESS) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its table of chunks is not complete (%s): the file may still be being "
+                   "written, or its writer was stopped; wait for it or render it again",
+                   s->path, wf_exr_trouble(result));
 }
 
 /* ---- Attributes ---- */
@@ -316,7 +290,6 @@ static void read_attributes(wf_subframe *s) {
     s->info.rate = rate_of(s, "weft:subframeRate");
     if (!wf_ratio_given(s->info.rate)) s->info.rate = s->info.frames;
     s->info.time_s = rational_of(s, "weft:time");
-    s->info.has_alpha = s->layout.channels == 4;
     s->info.band_lines = s->layout.chunk_lines;
     read_timecode(s);
     read_raster(s);
@@ -349,23 +322,55 @@ static weft_status start_reading(wf_subframe *s, weft_error *err) {
 
 static weft_status read_header(wf_subframe *s, const wf_source_options *o, int part,
                                weft_error *err) {
-    wf_pick pick;
-    weft_status status = choose_part(s, o, part, &pick, err);
+    weft_status status = choose_picture(s, o, part, err);
     if (!status) status = read_windows(s, err);
-    if (!status) status = lay_out_channels(s, &pick, err);
+    s->info.alpha = WF_ALPHA_PREMULTIPLIED; /* as OpenEXR has it */
+    if (!status) wf_subframe_settle_alpha(s, o);
+    if (!status) status = lay_out_channels(s, err);
     if (!status) status = lay_out_chunks(s, err);
     if (!status) status = check_sizes(s, o, err);
+    if (!status) status = check_chunks(s, err);
     if (!status) read_attributes(s);
     return status;
 }
 
+static wf_exr_pixels pixels_of(const wf_subframe *s) {
+    const wf_exr_layout *l = &s->layout;
+    bool whole = l->subsampled || s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA;
+    bool dwa = l->compression == EXR_COMPRESSION_DWAA || l->compression == EXR_COMPRESSION_DWAB;
+    return dwa ? WF_EXR_BY_MODULE : whole ? WF_EXR_SUBSAMPLED : WF_EXR_CHUNKS;
+}
+
 weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part,
-                        bool *needs_module, weft_error *err) {
+                        wf_exr_pixels *pixels, weft_error *err) {
     weft_status status = start_reading(s, err);
     s->opened = true;
     if (!status) status = read_header(s, o, part, err);
-    exr_compression_t compression = s->layout.compression;
-    *needs_module = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    *pixels = pixels_of(s);
+    bool chroma = s->layout.subsampled || s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA;
+    if (!status && chroma && *pixels == WF_EXR_BY_MODULE)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: it has subsampled channels or chroma under DWA compression, which weft does "
+            "not read; write it with ZIP",
+            s->path);
+    return status;
+}
+
+weft_status wf_source_layers(const char *path, wf_layer_fn *tell, void *user, weft_error *err) {
+    wf_subframe *s = calloc(1, sizeof *s);
+    wf_exr_parts parts;
+    if (!s || !(s->path = strdup(path))) {
+        free(s);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
+    }
+    bool exr = wf_is_exr(path);
+    weft_status status = exr ? start_reading(s, err) : WEFT_OK;
+    if (exr && !status && wf_exr_parts_find(s->exr, &parts)) {
+        wf_each_layer(parts.part, parts.count, tell, user);
+        wf_exr_parts_free(&parts);
+    }
+    wf_subframe_close(s);
     return status;
 }
 

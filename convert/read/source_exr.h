@@ -5,11 +5,23 @@
 
 /* Opening EXR files, and what their headers say. */
 
-/* Opens the EXR at subframe->path; *needs_module means that its compression must be read by
- * other means, with everything but the pixels known. Whatever the status, wf_subframe_close
- * releases. */
+/* How the pixels of an EXR have to be read. */
+typedef enum wf_exr_pixels {
+    WF_EXR_CHUNKS,     /* as rows are asked for */
+    WF_EXR_SUBSAMPLED, /* whole, by wf_exr_read_subsampled */
+    WF_EXR_BY_MODULE   /* whole, by OpenImageIO: DWAA, DWAB */
+} wf_exr_pixels;
+
+/* Opens the EXR at subframe->path: with success everything but the pixels is known. Whatever
+ * the status, wf_subframe_close releases. */
 weft_status wf_exr_open(wf_subframe *subframe, const wf_source_options *options, int part,
-                        bool *needs_module, weft_error *err);
+                        wf_exr_pixels *pixels, weft_error *err);
+
+/* Reads the picture of an open EXR, some of whose channels have not a sample for every pixel,
+ * into planes [channels][height][width]: floats, R G B[, A]. Luminance and chroma become R G B
+ * by the luma weights of the file's chromaticities, else Rec. 709's; chroma is interpolated by
+ * Rec. BT.601's half-band, cosited with even pixels and lines. */
+weft_status wf_exr_read_subsampled(const wf_subframe *subframe, float *planes, weft_error *err);
 
 /* Whether the file starts like an EXR. False too if it cannot be read. */
 bool wf_is_exr(const char *path);

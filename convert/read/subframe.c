@@ -1,10 +1,45 @@
-/* An open picture: what it says of itself, and its end. */
+/* An open picture: what it says of itself, what it was taken for, and its end. */
 #include "convert/read/subframe.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 const wf_image_info *wf_subframe_info(const wf_subframe *subframe) {
     return &subframe->info;
+}
+
+const char *wf_subframe_part_name(const wf_subframe *subframe) {
+    return subframe->part_name;
+}
+
+const wf_pick *wf_subframe_pick(const wf_subframe *subframe) {
+    return &subframe->pick;
+}
+
+void wf_subframe_settle_alpha(wf_subframe *s, const wf_source_options *o) {
+    bool given = o->alpha != WF_ALPHA_UNSET, has = s->pick.count == 4;
+    if (given) s->info.alpha = o->alpha;
+    if (!has) s->info.alpha = WF_ALPHA_UNSET;
+    s->alpha_reason = !has || (!given && s->info.alpha_by_file) ? WF_REASON_FILE
+                      : given                                   ? WF_REASON_OPTION
+                                                                : WF_REASON_DEFAULT;
+    bool counts = has && s->info.alpha != WF_ALPHA_IGNORED;
+    s->multiplies = counts && s->info.alpha == WF_ALPHA_STRAIGHT;
+    s->info.has_alpha = counts && o->want_alpha;
+    if (!s->multiplies && !s->info.has_alpha) s->pick.count = 3;
+}
+
+void wf_subframe_take(const wf_subframe *s, wf_taken_list *list) {
+    static const char *const alphas[] = {"none", "straight", "premultiplied", "ignore"};
+    const wf_pick *pick = &s->pick;
+    char number[16];
+    snprintf(number, sizeof number, "%d", s->part);
+    wf_take(list, "part", *s->part_name ? s->part_name : number,
+            wf_reason_name(pick->part_reason));
+    wf_take(list, "layer", pick->layer, wf_reason_name(pick->layer_reason));
+    wf_take(list, "channels", wf_picture_kind_name(pick->kind),
+            wf_reason_name(pick->layer_reason));
+    wf_take(list, "alpha", alphas[s->info.alpha], wf_reason_name(s->alpha_reason));
 }
 
 void wf_subframe_close(wf_subframe *s) {

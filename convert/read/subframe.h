@@ -3,7 +3,7 @@
 
 #include <openexr.h>
 
-#include "convert/read/layers.h"
+#include "convert/read/choice/pick.h"
 #include "convert/read/source.h"
 
 /* Inside the source: an open picture, and how its decoded bytes lie. */
@@ -15,7 +15,8 @@ typedef struct wf_exr_layout {
     wf_box data;
     exr_compression_t compression;
     exr_pixel_type_t type[4];    /* of the channels picked */
-    int channels;                /* 3 or 4 */
+    int channels;                /* read: 3, or 4 with alpha */
+    bool subsampled;             /* some channel has not a sample for every pixel */
     int tile_width, tile_height; /* 0: scanlines */
     int chunk_lines;             /* of a scanline chunk, or a tile */
     size_t before[4];            /* bytes of a pixel that lie before the channel picked */
@@ -26,7 +27,10 @@ typedef struct wf_exr_layout {
 struct wf_subframe {
     char *path;
     int part;
-    const char *layer; /* borrowed; NULL: the part's own R G B */
+    char part_name[WF_LAYER_SIZE]; /* "": none, or the only part */
+    wf_pick pick;
+    wf_reason alpha_reason;
+    bool multiplies; /* color by alpha, which the file has not done */
     wf_image_info info;
     wf_exr_layout layout;
     exr_context_t exr; /* NULL: read whole, through OpenImageIO */
@@ -34,5 +38,9 @@ struct wf_subframe {
     char trouble[256]; /* what was wrong with it */
     float *whole;      /* [channels][height][width] of the data window */
 };
+
+/* Settles, of a picture whose channels are picked and whose info.alpha says how its format
+ * stores color beside alpha, whether alpha is read, multiplied by and delivered. */
+void wf_subframe_settle_alpha(wf_subframe *subframe, const wf_source_options *options);
 
 #endif

@@ -42,7 +42,8 @@ static weft_status look_at_first(wf_video *v, weft_error *err) {
 static weft_status pictures_open(wf_video *v, wf_video_label *label, weft_error *err) {
     pictures *p = v->state = calloc(1, sizeof *p);
     if (!p) return wf_video_no_memory(v, err);
-    p->source = (wf_source_options){.nan_fix = WF_NAN_BOX3,
+    p->source = (wf_source_options){.alpha = WF_ALPHA_IGNORED,
+                                    .nan_fix = WF_NAN_BOX3,
                                     .max_memory_bytes = v->options.max_memory_bytes};
     weft_status status = find_files(v, err);
     if (!status) status = look_at_first(v, err);

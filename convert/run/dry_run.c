@@ -161,6 +161,7 @@ weft_status wf_dry_run_make(wf_run *run, bool pictures, weft_error *err) {
     wf_dry_run *d = calloc(1, sizeof *d);
     run->report->plan = d;
     if (!d) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
+    d->taken = &run->report->taken;
     d->reads = run->kind->opens != NULL;
     d->memory_bytes = run->pace.memory_bytes;
     d->threads = run->crew.threads;

@@ -17,6 +17,7 @@ struct wf_dry_run {
     wf_dry_field *fields; /* NULL: it makes subframes */
     size_t field_count;
     int64_t frames;
+    const wf_taken_list *taken;
     bool reads; /* files, which are known: */
     int64_t opened, files, read_bytes;
     size_t memory_bytes;

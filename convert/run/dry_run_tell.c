@@ -49,6 +49,15 @@ static void put_field(FILE *to, const wf_dry_run *d, size_t i) {
     fputc('\n', to);
 }
 
+/* "input layer: rgba (file)". */
+static void put_taken(FILE *to, const wf_taken_list *taken) {
+    for (int i = 0; i < taken->count; i++) {
+        const wf_taken *row = &taken->row[i];
+        fprintf(to, "input %s: %s (%s)\n", row->key,
+                *row->value ? row->value : "without a name", row->reason);
+    }
+}
+
 static void put_all(FILE *to, const wf_dry_run *d, const weft_job *job) {
     if (d->fields)
         fprintf(to, "%s: %" PRId64 " frames, %zu fields of %s\n", job->output, d->frames,
@@ -60,6 +69,7 @@ static void put_all(FILE *to, const wf_dry_run *d, const weft_job *job) {
     if (d->reads)
         fprintf(to, "input: %" PRId64 " files, %" PRId64 " bytes, opened %" PRId64 " times\n",
                 d->files, d->read_bytes, d->opened);
+    put_taken(to, d->taken);
     if (d->samples >= 0) fprintf(to, "samples: %" PRId64 "\n", d->samples);
     if (d->reads)
         fprintf(to, "memory: %zu MB at most; threads: %d\n", d->memory_bytes >> 20, d->threads);

@@ -5,12 +5,13 @@
 
 #include "convert/run/fitting.h"
 #include "convert/run/pictures.h"
+#include "convert/run/subframe_check.h"
 #include "convert/run/timecode_start.h"
 
 /* run->source; the files are setup.sequence. */
 typedef struct subframes {
     wf_source_options options;
-    wf_image_info first; /* what the first that is there says of itself */
+    wf_first_subframe first; /* that is there */
     wf_resampler *resampler;
     int64_t end_field; /* of all frames, whatever the chunk */
 } subframes;
@@ -44,11 +45,13 @@ static bool shows_background(const weft_job *job) {
     return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
 }
 
-static weft_status look_at_first(subframes *s, const wf_subframe_ref *ref, weft_error *err) {
+static weft_status look_at_first(wf_run *run, const wf_subframe_ref *ref, weft_error *err) {
+    subframes *s = run->source;
     wf_subframe *subframe;
     weft_status status = wf_subframe_open(ref->path, ref->part, &s->options, &subframe, err);
     if (status) return status;
-    s->first = *wf_subframe_info(subframe);
+    s->first = wf_first_subframe_of(subframe);
+    wf_subframe_take(subframe, &run->report->taken);
     wf_subframe_close(subframe);
     return WEFT_OK;
 }
@@ -67,11 +70,12 @@ static weft_status find_input(wf_run *run, weft_error *err) {
     s->options = (wf_source_options){
         .layer = job->layer,
         .part = job->part,
-        .want_alpha = shows_background(job),
+        .want_alpha = shows_background(job) && job->alpha != WF_ALPHA_IGNORED,
+        .alpha = job->alpha,
         .nan_fix = job->nan_fix,
         .max_memory_bytes = job->max_memory_bytes,
     };
-    return look_at_first(s, ref, err);
+    return look_at_first(run, ref, err);
 }
 
 /* ---- Rate ---- */
@@ -80,8 +84,8 @@ static weft_status settle_rate(const weft_job *job, const wf_run *run, wf_ration
                                weft_error *err) {
     const subframes *s = run->source;
     *rate = job->subframe_rate;
-    if (!wf_ratio_given(*rate) && wf_ratio_given(s->first.rate))
-        *rate = wf_ratio_div(s->first.rate, run->setup.sequence.step);
+    if (!wf_ratio_given(*rate) && wf_ratio_given(s->first.info.rate))
+        *rate = wf_ratio_div(s->first.info.rate, run->setup.sequence.step);
     if (wf_ratio_given(*rate) && rate->num > 0) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE,
                    "%s: the files do not say how many subframes a second they are; give "
@@ -126,9 +130,10 @@ static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_erro
 /* Bands follow the chunks of the first file; others may differ and cost a little more. Whole
  * pictures are cut so that a band's sums stay in a core's cache. */
 static void choose_bands(const subframes *s, wf_resample_desc *desc) {
-    desc->band_rows = s->first.band_lines > 0 && !s->first.whole ? s->first.band_lines : 16;
+    desc->band_rows =
+        s->first.info.band_lines > 0 && !s->first.info.whole ? s->first.info.band_lines : 16;
     while (desc->band_rows < 16) desc->band_rows *= 2;
-    desc->band_origin = s->first.data.y0 - s->first.display.y0;
+    desc->band_origin = s->first.info.data.y0 - s->first.info.display.y0;
 }
 
 static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
@@ -144,10 +149,10 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
                    .width = wf_setup_width(job),
                    .position = job->shutter_position,
                    .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)},
-        .channels = s->options.want_alpha && s->first.has_alpha ? 4 : 3,
+        .channels = s->options.want_alpha ? 4 : 3, /* later files may have alpha */
         .background = {job->background[0], job->background[1], job->background[2]},
     };
-    wf_fit_picture(job, &s->first, &desc.x, &desc.y);
+    wf_fit_picture(job, &s->first.info, &desc.x, &desc.y);
     choose_bands(s, &desc);
     return desc;
 }
@@ -178,7 +183,7 @@ static weft_status count(wf_run *run, weft_error *err) {
     if (!status) status = settle_rate(run->job, run, &rate, err);
     if (!status && run->job->raster.pulldown) status = settle_film(run->job, &rate, err);
     if (!status) status = settle_fields(run, rate, err);
-    if (!status) wf_start_timecode(run->job, &run->setup, &s->first);
+    if (!status) wf_start_timecode(run->job, &run->setup, &s->first.info);
     return status;
 }
 
@@ -250,25 +255,14 @@ static bool same(const wf_run *run, int64_t a, int64_t b) {
     return shown_at(run, a) == shown_at(run, b);
 }
 
-static weft_status check_size(const wf_run *run, const char *path, const wf_image_info *info,
-                              weft_error *err) {
-    const subframes *s = run->source;
-    wf_box a = s->first.display, b = info->display;
-    if (a.x1 - a.x0 == b.x1 - b.x0 && a.y1 - a.y0 == b.y1 - b.y0) return WEFT_OK;
-    return wf_fail(
-        err, WEFT_FAILED,
-        "%s: its display window is %dx%d, the sequence began with %dx%d; all subframes "
-        "must have one size",
-        path, b.x1 - b.x0, b.y1 - b.y0, a.x1 - a.x0, a.y1 - a.y0);
-}
-
 static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
                                 weft_error *err) {
     const subframes *s = run->source;
     const wf_subframe_ref *ref = shown_at(run, k);
     if (!ref->path) return WEFT_OK;
     weft_status status = wf_subframe_open(ref->path, ref->part, &s->options, out, err);
-    return status ? status : check_size(run, ref->path, wf_subframe_info(*out), err);
+    if (status) return status;
+    return wf_check_subframe(run->job, &s->first, ref->path, ref->part >= 0, *out, err);
 }
 
 /* Whole pictures in memory at once, where a format cannot be read by chunks. */
@@ -284,7 +278,8 @@ static int open_together(const wf_image_info *info) {
 
 static wf_picture_desc describe(const wf_run *run) {
     const subframes *s = run->source;
-    return (wf_picture_desc){s->resampler, &s->options, open_together(&s->first), s->end_field};
+    return (wf_picture_desc){s->resampler, &s->options, open_together(&s->first.info),
+                             s->end_field};
 }
 
 static int64_t opens(const wf_run *run, const wf_units *units, bool *needed) {

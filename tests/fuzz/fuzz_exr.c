@@ -10,7 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-#define KINDS 24
+#define KINDS 32
 #define RAW   255
 
 typedef struct good_file {
@@ -36,6 +36,10 @@ static good_file make(int kind) {
                      .rate = "240/1",
                      .value = ramp};
     if (kind / 8 == 1) part.tile_width = 16, part.tile_height = 8;
+    if (kind / 8 == 3) {
+        part.channels = kind % 2 ? "BY/2 RY/2 Y" : "A B G R id# mask/2";
+        part.data = (wf_box){-2, 2, 24, 38};
+    }
     char path[] = "/tmp/weft-fuzz-XXXXXX";
     int descriptor = mkstemp(path);
     good_file good = {NULL, 0};
@@ -54,9 +58,11 @@ static void patch(uint8_t *file, size_t file_size, const uint8_t *data, size_t s
         file[((size_t)data[i] << 8 | data[i + 1]) % file_size] = data[i + 2];
 }
 
-static void read_all(const char *path, wf_nan_fix how) {
-    wf_source_options options = {
-        .want_alpha = true, .nan_fix = how, .max_memory_bytes = (size_t)64 << 20};
+static void read_all(const char *path, wf_nan_fix how, wf_alpha alpha) {
+    wf_source_options options = {.want_alpha = true,
+                                 .alpha = alpha,
+                                 .nan_fix = how,
+                                 .max_memory_bytes = (size_t)64 << 20};
     wf_subframe *s = NULL;
     wf_reader *reader = NULL;
     weft_error err = {""};
@@ -91,7 +97,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int descriptor = memfd_create("subframe.exr", 0);
     if (descriptor < 0 || write(descriptor, file, file_size) != (ssize_t)file_size) abort();
     snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
-    read_all(path, size % 2 ? WF_NAN_BOX3 : WF_NAN_BLACK);
+    read_all(path, size % 2 ? WF_NAN_BOX3 : WF_NAN_BLACK,
+             size % 3 ? WF_ALPHA_UNSET : WF_ALPHA_STRAIGHT);
     close(descriptor);
     return 0;
 }

@@ -171,6 +171,19 @@ void read_raster(const ImageSpec &spec, wf_image_info *info) {
     snprintf(info->raster, sizeof info->raster, "%s", name.c_str());
 }
 
+// PNG (ISO 15948), DPX, TGA and WebP are straight, EXR is premultiplied; TIFF says which by
+// ExtraSamples, of which its reader keeps a mark.
+void read_alpha(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
+    const std::string format = in.format_name();
+    info->has_alpha = spec.alpha_channel >= 0;
+    info->alpha_by_file = format == "tiff";
+    if (!info->has_alpha) return;
+    const bool premultiplied =
+        format == "openexr" ||
+        (format == "tiff" && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0));
+    info->alpha = premultiplied ? WF_ALPHA_PREMULTIPLIED : WF_ALPHA_STRAIGHT;
+}
+
 void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
     *info = wf_image_info{};
     info->display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
@@ -183,7 +196,7 @@ void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info)
     info->rate = first_rate(spec, {"weft:subframeRate"});
     if (!wf_ratio_given(info->rate)) info->rate = info->frames;
     info->time_s = ratio_attribute(spec, "weft:time");
-    info->has_alpha = spec.alpha_channel >= 0;
+    read_alpha(in, spec, info);
     info->whole = true;
     info->band_lines = spec.height;
     read_timecode(spec, info);

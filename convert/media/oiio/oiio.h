@@ -17,8 +17,8 @@ typedef weft_status wf_oiio_probe_fn(const char *path, int part, size_t max_memo
                                      weft_error *err);
 
 /* Reads count channels of that picture into planes [count][data height][data width] as floats:
- * integer formats as 0 .. 1, alpha not multiplied or divided. data is what the probe (or the
- * EXR header) said; a file that no longer agrees is an error. */
+ * integer formats as 0 .. 1, alpha neither multiplied nor divided. data is what the probe (or
+ * the EXR header) said; a file that no longer agrees is an error. */
 typedef weft_status wf_oiio_read_fn(const char *path, int part, const int *channel, int count,
                                     const wf_box *data, float *planes, weft_error *err);
 

@@ -198,8 +198,7 @@ static void refused(const char *path, int part, const wf_source_options *options
     if (!strstr(err.text, word)) fail_msg("'%s' does not say '%s'", err.text, word);
 }
 
-/* Layers: the only one with R G B is taken, among several the one called Combined, or the one
- * asked for; names of what there is are in the refusal. */
+/* The layer that is chosen is the one that is read (test_pick.c has the choice itself). */
 static void layers(void **state) {
     (void)state;
     static const struct {
@@ -213,10 +212,16 @@ static void layers(void **state) {
          5},
         {"B G R d.B d.G d.R", "d", NULL, 5},
         {"B G R d.Y", "d", NULL, 3},
-        {"a.B a.G a.R b.B b.G b.R", NULL, "layers a, b; choose one with --layer", 0},
-        {"a.B a.G a.R b.B b.G b.R", "c", "no layer 'c'; the layers with R G B are a, b", 0},
-        {"U V", NULL, "its channels are U, V", 0},
-        {"BY RY Y", NULL, "luminance and chroma", 0},
+        {"Ci.b Ci.g Ci.r a", NULL, NULL, 2},
+        {"blue green red", NULL, NULL, 2},
+        {"N.X N.Y N.Z RGBA.A RGBA.B RGBA.G RGBA.R", NULL, NULL, 6},
+        {"B G R id#", NULL, NULL, 2},
+        {"a.B a.G a.R b.B b.G b.R", NULL,
+         "choose one with --layer; it has a (R G B), b (R G B)", 0},
+        {"a.B a.G a.R b.B b.G b.R", "c", "no layer 'c'; it has a (R G B), b (R G B)", 0},
+        {"U V", NULL, "it has U V", 0},
+        {"B/2 G R", NULL, "channel B is subsampled 2x2", 0},
+        {"B# G# R#", NULL, "there is no picture in it", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         exr_part p = part_of(20, 20);
@@ -252,8 +257,8 @@ static void parts(void **state) {
     const char *path = temporary("parts.exr");
     assert_true(exr_write(path, p, 3));
     for (int i = 0; i < 3; i++) expect_part(path, i, &p[i], 0);
-    expect_part(path, -1, &p[0], 0);
     wf_source_options options = plain;
+    refused(path, -1, &options, "choose one with --part; it has part 0 'left': R G B; part 1");
     options.part = "glow";
     wf_subframe *s = opened(path, -1, &options);
     assert_int_equal(wf_subframe_info(s)->data.y1, 21);
@@ -263,7 +268,258 @@ static void parts(void **state) {
     assert_int_equal(wf_subframe_info(s)->data.y1, 22);
     wf_subframe_close(s);
     options.part = "glare";
-    refused(path, -1, &options, "its parts are 0 'left', 1 'glow', 2 '7'");
+    refused(path, -1, &options,
+            "no part 'glare'; it has part 0 'left': R G B; part 1 'glow': R G B; part 2 '7'");
+}
+
+/* ---- Channels with fewer samples than pixels ---- */
+
+/* Every row of a picture against a function of R G B and the place. */
+static void expect_light(const char *path, const wf_source_options *options, int channels,
+                         float (*light)(int c, int x, int y), double tolerance) {
+    wf_subframe *s = opened(path, -1, options);
+    wf_reader *reader = reader_for(options);
+    wf_box data = wf_subframe_info(s)->data;
+    for (int y = data.y0; y < data.y1; y += 7) {
+        wf_rows rows;
+        weft_error err = {""};
+        int end = y + 7 < data.y1 ? y + 7 : data.y1;
+        if (wf_reader_rows(reader, s, y, end, &rows, &err)) fail_msg("%s", err.text);
+        assert_int_equal(rows.channels, channels);
+        for (int c = 0; c < channels; c++)
+            for (int v = y; v < end; v++)
+                for (int x = data.x0; x < data.x1; x++) {
+                    double is = (double)sample(&rows, c, x, v), should = (double)light(c, x, v);
+                    if (!(fabs(is - should) <= tolerance))
+                        fail_msg("%s: channel %d at %d,%d is %g, should be %g", path, c, x, v,
+                                 is, should);
+                }
+    }
+    wf_reader_free(reader);
+    wf_subframe_close(s);
+}
+
+static const exr_compression_t exact[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE,
+                                          EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP,
+                                          EXR_COMPRESSION_PIZ,  EXR_COMPRESSION_PXR24};
+
+static float blue_green_red(int c, int x, int y) {
+    return smooth(NULL, 2 - c, x, y);
+}
+
+/* A mask at half size, ids: whatever lies beside the picture. */
+static void subsampled_beside_the_picture(void **state) {
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        exr_part p = part_of(66, 45);
+        p.data = (wf_box){-4, 6, 64, 54};
+        p.channels = i / 6 ? "B G R id# mask.V/2 zone/4" : "B G R mask.V/2";
+        p.compression = exact[i % 6];
+        p.value = smooth;
+        const char *path = temporary("beside.exr");
+        if (i / 6) p.data.y0 = 4, p.data.y1 = 48;
+        assert_true(exr_write(path, &p, 1));
+        expect_light(path, &plain, 3, blue_green_red, 0);
+    }
+}
+
+/* Two colors of one ratio everywhere, so that RY and BY are flat and interpolation exact. */
+static float lit(int x, int y) {
+    return (float)(x + 2 * y + 16) / 64;
+}
+
+static const double red_709 = 0.2126390058715104, blue_709 = 0.0721923153607337;
+
+static float luminance_chroma(const void *user, int channel, int x, int y) {
+    const float *ratio = user; /* of RY and BY */
+    return channel == 2 ? lit(x, y) : ratio[1 - channel];
+}
+
+static float chroma_light(int c, int x, int y) {
+    double light = (double)lit(x, y), red = 1.5 * light, blue = 0.25 * light;
+    double green = (light - red_709 * red - blue_709 * blue) / (1 - red_709 - blue_709);
+    return (float)(c == 0 ? red : c == 1 ? green : blue);
+}
+
+/* R = (1 + RY) Y, B = (1 + BY) Y, and G from Y = .2126 R + .7152 G + .0722 B. */
+static void luminance_and_chroma(void **state) {
+    (void)state;
+    static const float ratio[2] = {0.5f, -0.75f};
+    static const char *const channels[] = {"BY/2 RY/2 Y", "BY/4 RY/4 Y", "BY RY Y"};
+    for (int i = 0; i < 18; i++) {
+        exr_part p = part_of(68, 44);
+        p.channels = channels[i / 6];
+        p.compression = exact[i % 6];
+        p.value = luminance_chroma, p.user = ratio;
+        const char *path = temporary("chroma.exr");
+        assert_true(exr_write(path, &p, 1));
+        expect_light(path, &plain, 3, chroma_light, 2e-5);
+    }
+    exr_part p = part_of(64, 48);
+    p.channels = "BY/8 RY/8 Y";
+    p.value = luminance_chroma, p.user = ratio;
+    const char *path = temporary("eighths.exr");
+    assert_true(exr_write(path, &p, 1));
+    refused(path, -1, &plain, "8x8");
+}
+
+static float waving(const void *user, int channel, int x, int y) {
+    (void)user;
+    double wave = 0.25 * cos(0.3 * x) + 0.2 * sin(0.25 * y);
+    return channel == 2 ? 1 : (float)(channel == 1 ? wave : -wave);
+}
+
+static float waving_light(int c, int x, int y) {
+    double wave = 0.25 * cos(0.3 * x) + 0.2 * sin(0.25 * y), red = 1 + wave, blue = 1 - wave;
+    double green = (1 - red_709 * red - blue_709 * blue) / (1 - red_709 - blue_709);
+    return (float)(c == 0 ? red : c == 1 ? green : blue);
+}
+
+/* Chroma that varies slowly comes back between its samples as well: far more closely than a
+ * repeated sample (0.07 off) or a straight line between two (0.005) would. */
+static void chroma_is_interpolated(void **state) {
+    (void)state;
+    exr_part p = part_of(160, 120);
+    p.channels = "BY/2 RY/2 Y";
+    p.type = EXR_PIXEL_FLOAT;
+    p.value = waving;
+    const char *path = temporary("waving.exr");
+    assert_true(exr_write(path, &p, 1));
+    wf_subframe *s = opened(path, -1, &plain);
+    wf_reader *reader = reader_for(&plain);
+    wf_rows rows;
+    assert_int_equal(wf_reader_rows(reader, s, 0, 120, &rows, NULL), WEFT_OK);
+    for (int c = 0; c < 3; c++)
+        for (int y = 40; y < 80; y++)
+            for (int x = 40; x < 120; x++)
+                assert_true(fabs((double)sample(&rows, c, x, y) -
+                                 (double)waving_light(c, x, y)) < 7e-4);
+    wf_reader_free(reader);
+    wf_subframe_close(s);
+}
+
+static float other_primaries_light(int c, int x, int y) {
+    double light = (double)lit(x, y), red = 1.5 * light, blue = 0.25 * light;
+    return (float)(c == 0 ? red : c == 1 ? 3 * light - red - blue : blue);
+}
+
+/* XYZ of red, green and blue are .5 1/3 .1, .2 1/3 .2 and .2 1/3 .6: each gives a third of the
+ * luminance of white, their sum. */
+static void luma_of_the_files_primaries(void **state) {
+    (void)state;
+    static const float ratio[2] = {0.5f, -0.75f};
+    static const float even[8] = {.535714f, .357143f, .272727f, .454545f,
+                                  .176471f, .294118f, .321429f, .357143f};
+    exr_part p = part_of(40, 30);
+    p.channels = "BY/2 RY/2 Y";
+    p.chromaticities = even;
+    p.value = luminance_chroma, p.user = ratio;
+    const char *path = temporary("even.exr");
+    assert_true(exr_write(path, &p, 1));
+    expect_light(path, &plain, 3, other_primaries_light, 2e-5);
+}
+
+/* ---- Alpha ---- */
+
+/* A B G R: alpha in eighths. */
+static float with_alpha(const void *user, int channel, int x, int y) {
+    (void)user;
+    return channel ? (float)(x + 8 * channel) / 16 : (float)(y % 9) / 8;
+}
+
+static float as_stored(int c, int x, int y) {
+    return with_alpha(NULL, 3 - c, x, y);
+}
+
+static float multiplied(int c, int x, int y) {
+    return c == 3 ? as_stored(c, x, y) : as_stored(c, x, y) * as_stored(3, x, y);
+}
+
+static void alpha_by_every_option(void **state) {
+    (void)state;
+    const struct {
+        wf_alpha alpha;
+        bool wanted;
+        int channels;
+        float (*light)(int c, int x, int y);
+        const char *value, *reason;
+    } cases[] = {{WF_ALPHA_UNSET, false, 3, as_stored, "premultiplied", "default"},
+                 {WF_ALPHA_UNSET, true, 4, as_stored, "premultiplied", "default"},
+                 {WF_ALPHA_PREMULTIPLIED, true, 4, as_stored, "premultiplied", "option"},
+                 {WF_ALPHA_STRAIGHT, false, 3, multiplied, "straight", "option"},
+                 {WF_ALPHA_STRAIGHT, true, 4, multiplied, "straight", "option"},
+                 {WF_ALPHA_IGNORED, true, 3, as_stored, "ignore", "option"}};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        exr_part p = part_of(40, 30);
+        p.channels = "A B G R";
+        p.type = i % 2 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF;
+        p.value = with_alpha;
+        const char *path = temporary("alpha.exr");
+        assert_true(exr_write(path, &p, 1));
+        wf_source_options options = plain;
+        options.alpha = cases[i / 2].alpha, options.want_alpha = cases[i / 2].wanted;
+        expect_light(path, &options, cases[i / 2].channels, cases[i / 2].light, 0);
+        wf_taken_list taken = {0};
+        wf_subframe *s = opened(path, -1, &options);
+        wf_subframe_take(s, &taken);
+        wf_subframe_close(s);
+        assert_string_equal(taken.row[taken.count - 1].key, "alpha");
+        assert_string_equal(taken.row[taken.count - 1].value, cases[i / 2].value);
+        assert_string_equal(taken.row[taken.count - 1].reason, cases[i / 2].reason);
+    }
+}
+
+static float odd_alpha(const void *user, int channel, int x, int y) {
+    return channel == 3 && x == 5 && y == 15 ? NAN : with_alpha(user, channel, x, y);
+}
+
+static float mended(int c, int x, int y) {
+    double sum = 0;
+    if (c || x != 5 || y != 15) return multiplied(c, x, y);
+    for (int v = 14; v < 17; v++)
+        for (int u = 4; u < 7; u++) sum += u == 5 && v == 15 ? 0 : (double)as_stored(0, u, v);
+    return (float)(sum / 8) * as_stored(3, x, y);
+}
+
+/* NaN is replaced among samples as they are stored, also by rows beyond those read (the rows of
+ * a call end at 13, 20 ..). */
+static void not_finite_before_alpha(void **state) {
+    (void)state;
+    exr_part p = part_of(40, 30);
+    p.channels = "A B G R";
+    p.value = odd_alpha;
+    const char *path = temporary("oddalpha.exr");
+    assert_true(exr_write(path, &p, 1));
+    wf_source_options options = plain;
+    options.alpha = WF_ALPHA_STRAIGHT, options.nan_fix = WF_NAN_BOX3;
+    expect_light(path, &options, 3, mended, 1e-6);
+}
+
+/* ---- Files that are not finished ---- */
+
+/* Renderers write the table of chunks last: until then it is zero, all of it or its end. */
+static void still_being_written(void **state) {
+    (void)state;
+    exr_part p = part_of(33, 100);
+    for (int entry = 0; entry < 3; entry++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s", temporary("growing.exr"));
+        assert_true(exr_write(path, &p, 1));
+        FILE *file = fopen(path, "r+b");
+        unsigned char bytes[1024];
+        size_t got = fread(bytes, 1, sizeof bytes, file), at = 8;
+        while (at + 1 < got && bytes[at]) { /* name, type, size, value */
+            at += strlen((char *)bytes + at) + 1;
+            at += strlen((char *)bytes + at) + 1;
+            at += 4 + (size_t)(bytes[at] + 256 * bytes[at + 1]);
+        }
+        const unsigned char none[7 * 8] = {0}; /* seven chunks of 16 lines */
+        size_t from = entry == 0 ? 0 : entry == 1 ? 6 : 3;
+        fseek(file, (long)(at + 1 + 8 * from), SEEK_SET);
+        fwrite(none, 8, 7 - from, file);
+        fclose(file);
+        refused(path, -1, &plain, "may still be being written");
+    }
 }
 
 static void parts_in_time(void **state) {
@@ -543,6 +799,13 @@ int main(void) {
         cmocka_unit_test(attributes),
         cmocka_unit_test(layers),
         cmocka_unit_test(parts),
+        cmocka_unit_test(subsampled_beside_the_picture),
+        cmocka_unit_test(luminance_and_chroma),
+        cmocka_unit_test(chroma_is_interpolated),
+        cmocka_unit_test(luma_of_the_files_primaries),
+        cmocka_unit_test(alpha_by_every_option),
+        cmocka_unit_test(not_finite_before_alpha),
+        cmocka_unit_test(still_being_written),
         cmocka_unit_test(parts_in_time),
         cmocka_unit_test(equal_chunks_are_reused),
         cmocka_unit_test(not_finite),

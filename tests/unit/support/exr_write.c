@@ -12,6 +12,7 @@ typedef struct writer {
     exr_encode_pipeline_t encoder;
     bool started;
     float *samples; /* [channels][lines][width] of a chunk */
+    int chunk_x, chunk_y;
 } writer;
 
 static exr_attr_box2i_t inclusive(wf_box box) {
@@ -24,9 +25,14 @@ static bool add_channels(const writer *w) {
     bool fine = true;
     snprintf(names, sizeof names, "%s", w->part->channels);
     char *rest = NULL;
-    for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
-        fine &= !exr_add_channel(w->exr, w->index, name, w->part->type,
-                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest)) {
+        char *factor = strchr(name, '/'), *whole = strchr(name, '#');
+        int step = factor ? atoi(factor + 1) : 1;
+        if (factor) *factor = '\0';
+        if (whole) *whole = '\0';
+        fine &= !exr_add_channel(w->exr, w->index, name, whole ? EXR_PIXEL_UINT : w->part->type,
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, step, step);
+    }
     return fine;
 }
 
@@ -61,7 +67,53 @@ static bool describe(writer *w) {
     const exr_attr_timecode_t label = {.time_and_flags = p->timecode};
     if (fine && p->timecode)
         fine = !exr_attr_set_timecode(w->exr, w->index, "timeCode", &label);
+    if (fine && p->attribute[0])
+        fine = !exr_attr_set_string(w->exr, w->index, p->attribute[0], p->attribute[1]);
+    exr_attr_chromaticities_t colors;
+    if (fine && p->chromaticities) {
+        memcpy(&colors, p->chromaticities, sizeof colors);
+        fine = !exr_attr_set_chromaticities(w->exr, w->index, "chromaticities", &colors);
+    }
     return fine;
+}
+
+/* ---- Channels with fewer samples than pixels ---- */
+
+/* Of a value that a half holds exactly. */
+static uint16_t half_of(float value) {
+    uint32_t bits;
+    float small = value * 0x1p-112f;
+    memcpy(&bits, &small, sizeof bits);
+    return (uint16_t)((bits >> 16 & 0x8000) | (bits >> 13 & 0x7fff));
+}
+
+static uint8_t *put_sample(uint8_t *to, exr_pixel_type_t type, float value) {
+    uint16_t half = half_of(value);
+    uint32_t whole = value > 0 ? (uint32_t)value : 0;
+    size_t bytes = type == EXR_PIXEL_HALF ? 2 : 4;
+    memcpy(to,
+           type == EXR_PIXEL_HALF   ? (const void *)&half
+           : type == EXR_PIXEL_UINT ? (const void *)&whole
+                                    : (const void *)&value,
+           bytes);
+    return to + bytes;
+}
+
+/* In place of the library's own, which in version 3.1 writes lines that a channel has not. */
+static exr_result_t pack_subsampled(exr_encode_pipeline_t *e) {
+    const writer *w = e->encoding_user_data;
+    uint8_t *to = e->packed_buffer;
+    for (int y = w->chunk_y; y < w->chunk_y + e->chunk.height; y++)
+        for (int c = 0; c < e->channel_count; c++) {
+            const exr_coding_channel_info_t *channel = &e->channels[c];
+            if (y % channel->y_samples) continue;
+            for (int x = 0; x < channel->width; x++)
+                to = put_sample(
+                    to, channel->data_type,
+                    w->part->value(w->part->user, c, w->chunk_x + x * channel->x_samples, y));
+        }
+    e->packed_bytes = (uint64_t)(to - (uint8_t *)e->packed_buffer);
+    return EXR_ERR_SUCCESS;
 }
 
 static bool write_chunk(writer *w, const exr_chunk_info_t *chunk, int x0, int y0) {
@@ -76,12 +128,16 @@ static bool write_chunk(writer *w, const exr_chunk_info_t *chunk, int x0, int y0
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_bytes_per_element = sizeof(float);
         channel->user_pixel_stride = sizeof(float);
-        channel->user_line_stride = chunk->width * (int32_t)sizeof(float);
-        for (int y = 0; y < chunk->height; y++)
-            for (int x = 0; x < chunk->width; x++)
-                *to++ = w->part->value(w->part->user, c, x0 + x, y0 + y);
+        channel->user_line_stride = channel->width * (int32_t)sizeof(float);
+        for (int y = 0; y < channel->height; y++)
+            for (int x = 0; x < channel->width; x++)
+                *to++ = w->part->value(w->part->user, c, x0 + x * channel->x_samples,
+                                       y0 + y * channel->y_samples);
     }
     if (!w->started && exr_encoding_choose_default_routines(w->exr, w->index, e)) return false;
+    w->chunk_x = x0, w->chunk_y = y0;
+    e->encoding_user_data = w;
+    if (strchr(w->part->channels, '/')) e->convert_and_pack_fn = pack_subsampled;
     w->started = true;
     return exr_encoding_run(w->exr, w->index, e) == EXR_ERR_SUCCESS;
 }

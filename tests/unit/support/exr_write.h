@@ -9,7 +9,9 @@
 typedef struct exr_part {
     const char *name; /* NULL: "part" and its number */
     wf_box display, data;
-    const char *channels; /* blank separated, in the order of names: "A B G R" */
+    /* Blank separated, in the order of names: "A B G R". "RY/2" has a sample for every second
+       pixel and line, "id#" whole numbers. */
+    const char *channels;
     exr_pixel_type_t type;
     exr_compression_t compression;
     int tile_width, tile_height; /* 0: scanlines */
@@ -17,6 +19,8 @@ typedef struct exr_part {
     const char *subframe_rate;   /* weft:subframeRate, as text; NULL: none */
     uint32_t timecode;           /* timeCode, as convert/timecode.h packs it; 0: none */
     float pixel_aspect;          /* 0: 1 */
+    const char *attribute[2];    /* name and value of a text; NULL: none */
+    const float *chromaticities; /* x, y of red, green, blue, white; NULL: none */
     /* Value of a channel at a pixel of the data window. */
     float (*value)(const void *user, int channel, int x, int y);
     const void *user;

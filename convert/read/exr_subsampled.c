@@ -1,0 +1,253 @@
+/* Reads EXRs whole some of whose channels have not a sample for every pixel: luminance-chroma
+ * images, and pictures beside channels that are subsampled. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "color/codes/chroma.h"
+#include "convert/read/nan_fix.h"
+#include "convert/read/source_exr.h"
+
+/* A channel that is picked, as the file has it. */
+typedef struct plane {
+    int channel, across, down; /* pixels and lines a sample: 1, 2 or 4 */
+    size_t width, lines;       /* of samples */
+    float *sample;             /* [lines][width] */
+    bool borrowed;             /* the sample's memory */
+} plane;
+
+typedef struct reading {
+    const wf_subframe *s;
+    const exr_attr_chlist_t *list;
+    size_t width, lines;
+    plane plane[4];
+    int count;
+    size_t *line_bytes; /* [channels of the file], of a line that has samples */
+    float *line;        /* for interpolation: of the longer side, twice */
+    exr_decode_pipeline_t pipeline;
+    bool started;
+    int chunk_y; /* the first line of the chunk in hand */
+} reading;
+
+static weft_status no_memory(const reading *r, weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to read it whole", r->s->path);
+}
+
+/* ---- Memory ---- */
+
+static bool is_factor(int n) {
+    return n == 1 || n == 2 || n == 4;
+}
+
+static weft_status make_plane(reading *r, int p, float *full, weft_error *err) {
+    const exr_attr_chlist_entry_t *c = &r->list->entries[r->s->pick.channel[p]];
+    plane *to = &r->plane[p];
+    *to = (plane){r->s->pick.channel[p], c->x_sampling, c->y_sampling, 0, 0, full, true};
+    if (!is_factor(to->across) || !is_factor(to->down))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: channel %s is subsampled %dx%d; weft reads chroma of 1x1, 2x2 and "
+                       "4x4",
+                       r->s->path, c->name.str, to->across, to->down);
+    to->width = (r->width + (size_t)to->across - 1) / (size_t)to->across;
+    to->lines = (r->lines + (size_t)to->down - 1) / (size_t)to->down;
+    if (to->across == 1 && to->down == 1) return WEFT_OK;
+    to->borrowed = false;
+    to->sample = calloc(to->width * to->lines, sizeof *to->sample);
+    return to->sample ? WEFT_OK : no_memory(r, err);
+}
+
+static weft_status measure_lines(reading *r, weft_error *err) {
+    wf_box data = r->s->info.data;
+    for (int c = 0; c < r->list->num_channels; c++) {
+        const exr_attr_chlist_entry_t *channel = &r->list->entries[c];
+        int across = channel->x_sampling, down = channel->y_sampling;
+        if (across < 1 || down < 1 || data.x0 % across || data.y0 % down)
+            return wf_fail(
+                err, WEFT_FAILED,
+                "%s: its data window does not begin at a sample of channel %s, which "
+                "is subsampled %dx%d",
+                r->s->path, channel->name.str, across, down);
+        r->line_bytes[c] = (r->width + (size_t)across - 1) / (size_t)across *
+                           (channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4);
+    }
+    return WEFT_OK;
+}
+
+static weft_status start(reading *r, const wf_subframe *s, float *planes, weft_error *err) {
+    wf_box data = s->info.data;
+    *r = (reading){.s = s, .pipeline = EXR_DECODE_PIPELINE_INITIALIZER};
+    r->width = (size_t)(data.x1 - data.x0);
+    r->lines = (size_t)(data.y1 - data.y0);
+    exr_get_channels(s->exr, s->part, &r->list);
+    size_t longer = (r->width > r->lines ? r->width : r->lines) + 4;
+    r->line_bytes = calloc((size_t)r->list->num_channels, sizeof *r->line_bytes);
+    r->line = malloc(2 * longer * sizeof *r->line);
+    weft_status status = r->line_bytes && r->line ? measure_lines(r, err) : no_memory(r, err);
+    for (; !status && r->count < s->pick.count; r->count++)
+        status = make_plane(r, r->count, planes + (size_t)r->count * r->width * r->lines, err);
+    return status;
+}
+
+static void end(reading *r) {
+    if (r->started) exr_decoding_destroy(r->s->exr, &r->pipeline);
+    for (int p = 0; p < 4; p++)
+        if (!r->plane[p].borrowed) free(r->plane[p].sample);
+    free(r->line_bytes);
+    free(r->line);
+}
+
+/* ---- Chunks ---- */
+
+/* A line of a channel goes to every plane that is made of it. */
+static void take_line(reading *r, int channel, int line, const uint8_t *from) {
+    bool half = r->list->entries[channel].pixel_type == EXR_PIXEL_HALF;
+    for (int p = 0; p < r->count; p++) {
+        const plane *to = &r->plane[p];
+        if (to->channel != channel) continue;
+        float *sample = to->sample + (size_t)(line / to->down) * to->width;
+        if (half)
+            wf_floats_of_halves(sample, from, to->width);
+        else
+            memcpy(sample, from, to->width * sizeof *sample);
+    }
+}
+
+/* In place of the library's own routines, of which that of version 3.1 for three channels takes
+ * all for whole ones. Lines of all channels follow each other, less those without samples. */
+static exr_result_t take_lines(exr_decode_pipeline_t *pipeline) {
+    reading *r = pipeline->decoding_user_data;
+    const uint8_t *from = pipeline->unpacked_buffer;
+    size_t left = pipeline->chunk.unpacked_size;
+    wf_box data = r->s->info.data;
+    for (int y = r->chunk_y; y < r->chunk_y + pipeline->chunk.height && y < data.y1; y++)
+        for (int c = 0; c < r->list->num_channels; c++) {
+            const exr_attr_chlist_entry_t *channel = &r->list->entries[c];
+            if (y % channel->y_sampling) continue;
+            size_t bytes = r->line_bytes[c];
+            if (bytes > left) return EXR_ERR_CORRUPT_CHUNK;
+            take_line(r, c, y - data.y0, from);
+            from += bytes;
+            left -= bytes;
+        }
+    return left ? EXR_ERR_CORRUPT_CHUNK : EXR_ERR_SUCCESS;
+}
+
+static exr_result_t decode_chunk(reading *r, int y) {
+    const wf_subframe *s = r->s;
+    exr_chunk_info_t chunk;
+    r->chunk_y = y;
+    exr_result_t result = exr_read_scanline_chunk_info(s->exr, s->part, y, &chunk);
+    if (result == EXR_ERR_SUCCESS)
+        result = r->started ? exr_decoding_update(s->exr, s->part, &chunk, &r->pipeline)
+                            : exr_decoding_initialize(s->exr, s->part, &chunk, &r->pipeline);
+    if (result != EXR_ERR_SUCCESS) return result;
+    if (!r->started)
+        result = exr_decoding_choose_default_routines(s->exr, s->part, &r->pipeline);
+    r->started = true;
+    r->pipeline.unpack_and_convert_fn = take_lines;
+    r->pipeline.decoding_user_data = r;
+    return result == EXR_ERR_SUCCESS ? exr_decoding_run(s->exr, s->part, &r->pipeline) : result;
+}
+
+static weft_status decode_all(reading *r, weft_error *err) {
+    const wf_subframe *s = r->s;
+    for (int y = s->info.data.y0; y < s->info.data.y1; y += s->layout.chunk_lines) {
+        exr_result_t result = decode_chunk(r, y);
+        if (result != EXR_ERR_SUCCESS)
+            return wf_fail(err, WEFT_FAILED, "%s: the chunk at line %d cannot be read: %s",
+                           s->path, y - s->info.display.y0, wf_exr_trouble(result));
+    }
+    return WEFT_OK;
+}
+
+/* ---- Chroma ---- */
+
+/* count samples, `step` apart, become count * factor ones, of which `most` are stored. */
+static void interpolate(const reading *r, const float *from, size_t count, size_t step,
+                        int factor, float *to, size_t to_step, size_t most) {
+    const wf_chroma_filter *half_band = wf_chroma_filter_of(WF_CHROMA_BT601);
+    size_t longer = (r->width > r->lines ? r->width : r->lines) + 4;
+    float *a = r->line, *b = r->line + longer;
+    for (size_t i = 0; i < count; i++) a[i] = from[i * step];
+    for (; factor > 1; factor /= 2) {
+        count *= 2;
+        wf_chroma_interpolate(half_band, a, count, b);
+        float *swap = a;
+        a = b, b = swap;
+    }
+    for (size_t i = 0; i < most; i++) to[i * to_step] = a[i];
+}
+
+/* A plane of the picture's size from one with fewer samples: first along lines, then up. */
+static void fill_plane(const reading *r, const plane *p, float *full) {
+    for (size_t y = 0; y < p->lines; y++)
+        interpolate(r, p->sample + y * p->width, p->width, 1, p->across, full + y * r->width, 1,
+                    r->width);
+    for (size_t x = 0; p->down > 1 && x < r->width; x++)
+        interpolate(r, full + x, p->lines, r->width, p->down, full + x, r->width, r->lines);
+}
+
+static double determinant(const double a[3], const double b[3], const double c[3]) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
+           c[0] * (a[1] * b[2] - a[2] * b[1]);
+}
+
+static void xyz_of(exr_attr_v2f_t c, double xyz[3]) {
+    double x = (double)c.x, y = (double)c.y != 0 ? (double)c.y : 1e-9;
+    xyz[0] = x / y, xyz[1] = 1, xyz[2] = (1 - x - y) / y;
+}
+
+/* What R, G and B contribute to the luminance of white: Cramer's rule on their sum being white.
+ * False of primaries that no color can be mixed of. */
+static bool luma_of(const exr_attr_chromaticities_t *c, double weight[3]) {
+    double red[3], green[3], blue[3], white[3];
+    xyz_of((exr_attr_v2f_t){.x = c->red_x, .y = c->red_y}, red);
+    xyz_of((exr_attr_v2f_t){.x = c->green_x, .y = c->green_y}, green);
+    xyz_of((exr_attr_v2f_t){.x = c->blue_x, .y = c->blue_y}, blue);
+    xyz_of((exr_attr_v2f_t){.x = c->white_x, .y = c->white_y}, white);
+    double all = determinant(red, green, blue);
+    weight[0] = determinant(white, green, blue) / all;
+    weight[1] = determinant(red, white, blue) / all;
+    weight[2] = determinant(red, green, white) / all;
+    return fabs(all) > 1e-6 && weight[1] > 1e-3;
+}
+
+static void luma_weights(const wf_subframe *s, double weight[3]) {
+    static const exr_attr_chromaticities_t rec709 = {.64f, .33f, .3f,    .6f,
+                                                     .15f, .06f, .3127f, .329f};
+    const exr_attribute_t *found = NULL;
+    exr_get_attribute_by_name(s->exr, s->part, "chromaticities", &found);
+    bool given = found && found->type == EXR_ATTR_CHROMATICITIES;
+    if (!given || !luma_of(found->chromaticities, weight)) luma_of(&rec709, weight);
+}
+
+/* RY = (R - Y) / Y and BY = (B - Y) / Y, as the technical introduction to OpenEXR has them. */
+static void make_rgb(const reading *r, float *planes) {
+    double weight[3];
+    size_t samples = r->width * r->lines;
+    float *y = planes, *ry = planes + samples, *by = planes + 2 * samples;
+    luma_weights(r->s, weight);
+    for (size_t i = 0; i < samples; i++) {
+        double light = (double)y[i], red = ((double)ry[i] + 1) * light,
+               blue = ((double)by[i] + 1) * light;
+        y[i] = (float)red;
+        ry[i] = (float)((light - weight[0] * red - weight[2] * blue) / weight[1]);
+        by[i] = (float)blue;
+    }
+}
+
+static void finish(const reading *r, float *planes) {
+    size_t samples = r->width * r->lines;
+    for (int p = 0; p < r->count; p++)
+        if (!r->plane[p].borrowed) fill_plane(r, &r->plane[p], planes + (size_t)p * samples);
+    if (r->s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA) make_rgb(r, planes);
+}
+
+weft_status wf_exr_read_subsampled(const wf_subframe *s, float *planes, weft_error *err) {
+    reading r;
+    weft_status status = start(&r, s, planes, err);
+    if (!status) status = decode_all(&r, err);
+    if (!status) finish(&r, planes);
+    end(&r);
+    return status;
+}

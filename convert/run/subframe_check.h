@@ -1,0 +1,23 @@
+#ifndef WF_CONVERT_RUN_SUBFRAME_CHECK_H
+#define WF_CONVERT_RUN_SUBFRAME_CHECK_H
+
+#include "convert/job/job.h"
+#include "convert/read/source.h"
+
+/* What the first subframe is, which all others must be too. */
+typedef struct wf_first_subframe {
+    wf_image_info info;
+    wf_pick pick;
+    char part_name[WF_LAYER_SIZE];
+} wf_first_subframe;
+
+wf_first_subframe wf_first_subframe_of(const wf_subframe *subframe);
+
+/* Refuses a subframe of another size, pixel aspect (unless --input-par gives all of them one),
+ * kind of channels, layer or part than the first: it would be shown as what it is not. Alpha
+ * may come and go, and each file's own counts. own_part: parts are subframes, and so differ. */
+weft_status wf_check_subframe(const weft_job *job, const wf_first_subframe *first,
+                              const char *path, bool own_part, const wf_subframe *subframe,
+                              weft_error *err);
+
+#endif
