@@ -24,6 +24,15 @@ static weft_status damaged(const exam *x, const char *what) {
                    x->path, what);
 }
 
+/* Of files that end too early, as they do while they are written or copied. */
+static weft_status cut_short(const exam *x, const char *what) {
+    return wf_fail(
+        x->err, WEFT_FAILED,
+        "%.700s: %s: the file may still be being written, or is damaged; wait for it "
+        "or write it again",
+        x->path, what);
+}
+
 static bool read_at(const exam *x, uint64_t offset, void *to, size_t bytes) {
     if (offset > x->bytes || bytes > x->bytes - offset) return false;
     return !fseeko(x->file, (off_t)offset, SEEK_SET) && fread(to, 1, bytes, x->file) == bytes;
@@ -52,10 +61,10 @@ static weft_status examine_png(const exam *x) {
     for (uint64_t at = PNG_SIGNATURE_BYTES;;) {
         uint8_t head[8], tail[4];
         if (!read_at(x, at, head, sizeof head))
-            return damaged(x, "it ends before its IEND chunk");
+            return cut_short(x, "it ends before its IEND chunk");
         uint64_t bytes = wf_big_endian(head, 4);
         if (bytes + PNG_FRAME_BYTES > x->bytes - at)
-            return damaged(x, "it ends within a chunk");
+            return cut_short(x, "it ends within a chunk");
         uint32_t sum = libdeflate_crc32(0, head + 4, 4);
         if (!sum_data(x, &sum, bytes) || fread(tail, 1, sizeof tail, x->file) != sizeof tail)
             return damaged(x, "it cannot be read to its end");
@@ -77,7 +86,7 @@ static weft_status examine_jpeg(const exam *x) {
         return damaged(x, "it cannot be read to its end");
     for (size_t i = 0; i + 1 < bytes; i++)
         if (tail[i] == 0xff && tail[i + 1] == 0xd9) return WEFT_OK;
-    return damaged(x, "it ends before its end-of-image marker");
+    return cut_short(x, "it ends before its end-of-image marker");
 }
 
 /* ---- DPX (SMPTE ST 268) ---- */
@@ -112,7 +121,7 @@ static uint64_t dpx_element_bytes(const uint8_t *header, const uint8_t *element)
 /* OpenImageIO allocates as much user data as the header states, so that is checked too. */
 static weft_status examine_dpx(const exam *x) {
     uint8_t header[DPX_HEADER_BYTES];
-    if (!read_at(x, 0, header, sizeof header)) return damaged(x, "its header is not whole");
+    if (!read_at(x, 0, header, sizeof header)) return cut_short(x, "its header is not whole");
     uint32_t user = dpx_word(header, DPX_USER_SIZE);
     if (user != DPX_UNDEFINED && user > x->bytes - sizeof header)
         return damaged(x, "its header states more user data than the file has");
@@ -123,7 +132,7 @@ static weft_status examine_dpx(const exam *x) {
         dpx_word(header, DPX_ELEMENT + 24) & (header[0] == 'X' ? 0xffff0000 : 0xffff);
     if (offset > x->bytes ||
         (!encoded && dpx_element_bytes(header, element) > x->bytes - offset))
-        return damaged(x, "it ends before its picture does");
+        return cut_short(x, "it ends before its picture does");
     return WEFT_OK;
 }
 

@@ -174,7 +174,9 @@ static weft_status check_file(const char *path, weft_error *err) {
     if (!S_ISREG(about.st_mode))
         return wf_fail(err, WEFT_FAILED, "%s: not a regular file; pictures are read from files",
                        path);
-    if (!about.st_size) return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
+    if (!about.st_size)
+        return wf_fail(err, WEFT_FAILED, "%s: the file is empty; it may still be being written",
+                       path);
     return WEFT_OK;
 }
 

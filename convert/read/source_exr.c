@@ -316,8 +316,10 @@ static weft_status start_reading(wf_subframe *s, weft_error *err) {
     how.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_result_t result = exr_start_read(&s->exr, s->path, &how);
     if (result == EXR_ERR_SUCCESS) return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED, "%s: not a readable EXR file: %s", s->path,
-                   *s->trouble ? s->trouble : wf_exr_trouble(result));
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: not a readable EXR file: %s; it may still be being written, or is damaged",
+        s->path, *s->trouble ? s->trouble : wf_exr_trouble(result));
 }
 
 static weft_status read_header(wf_subframe *s, const wf_source_options *o, int part,

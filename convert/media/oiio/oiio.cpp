@@ -261,8 +261,11 @@ weft_status read_picture(Input &in, const ImageSpec &spec, Reading &r, float *pl
         spread_slab(spec, r, y, end, planes);
     }
     if (!in.file->starved) return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED,
-                   "%.700s: the file ends before its picture does; write it again", r.path);
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%.700s: the file ends before its picture does: it may still be being written; "
+        "wait for it or write it again",
+        r.path);
 }
 
 bool same_window(const ImageSpec &spec, const wf_box &data) {

@@ -522,6 +522,20 @@ static void still_being_written(void **state) {
     }
 }
 
+/* However much of a file is there already, that is said. */
+static void cut_short(void **state) {
+    (void)state;
+    static const long part[] = {0, 30, 150, 400, 2000, 5000};
+    exr_part p = part_of(33, 100);
+    char path[512];
+    snprintf(path, sizeof path, "%s", temporary("cut.exr"));
+    for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
+        assert_true(exr_write(path, &p, 1));
+        assert_int_equal(truncate(path, part[i]), 0);
+        refused(path, -1, &plain, "may still be being written");
+    }
+}
+
 static void parts_in_time(void **state) {
     (void)state;
     exr_part p[3] = {part_of(8, 8), part_of(8, 8), part_of(8, 8)};
@@ -806,6 +820,7 @@ int main(void) {
         cmocka_unit_test(alpha_by_every_option),
         cmocka_unit_test(not_finite_before_alpha),
         cmocka_unit_test(still_being_written),
+        cmocka_unit_test(cut_short),
         cmocka_unit_test(parts_in_time),
         cmocka_unit_test(equal_chunks_are_reused),
         cmocka_unit_test(not_finite),
