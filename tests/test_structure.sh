@@ -86,9 +86,10 @@ convert/media/oiio  : filters/* convert/base convert/job convert/media
 convert/media/libav : filters/* color/* convert/base convert/job convert/media
 convert/read/choice :
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice
+convert/video       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
-convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/finish
+convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/run convert/check convert/plot

@@ -138,6 +138,8 @@ static const wf_space spaces[] = {
     {"ACES2065-1", "lin_ap0", WF_PRIMARIES_AP0, NULL},
     {"lin_rec2020", NULL, WF_PRIMARIES_2020, NULL},
     {"lin_p3d65", NULL, WF_PRIMARIES_P3, NULL},
+    {"lin_rec601-525", NULL, WF_PRIMARIES_SMPTE_C, NULL},
+    {"lin_rec601-625", NULL, WF_PRIMARIES_EBU, NULL},
     {"rec601-525", NULL, WF_PRIMARIES_SMPTE_C, &wf_curve_bt1886},
     {"rec601-625", NULL, WF_PRIMARIES_EBU, &wf_curve_bt1886},
     {"rec709", NULL, WF_PRIMARIES_709, &wf_curve_bt1886},

@@ -38,7 +38,8 @@ static weft_status check_lines(const char *path, const wf_video_info *info, weft
 }
 
 static weft_status open_reference(measuring *m, weft_error *err) {
-    const wf_video_options options = {m->options->raster, m->options->max_memory_bytes};
+    const wf_video_options options = {.raster = m->options->raster,
+                                      .max_memory_bytes = m->options->max_memory_bytes};
     if (!m->options->against) return WEFT_OK;
     weft_status status = wf_video_open(m->options->against, &options, &m->reference, err);
     if (status) return status;
@@ -56,7 +57,8 @@ static weft_status open_reference(measuring *m, weft_error *err) {
 }
 
 static weft_status begin(measuring *m, weft_error *err) {
-    const wf_video_options options = {m->options->raster, m->options->max_memory_bytes};
+    const wf_video_options options = {.raster = m->options->raster,
+                                      .max_memory_bytes = m->options->max_memory_bytes};
     weft_status status = wf_video_open(m->path, &options, &m->video, err);
     if (status) return status;
     const wf_video_info *info = wf_video_info_of(m->video);

@@ -25,8 +25,11 @@ static int by_identity(const void *left, const void *right) {
     return (a->inode > b->inode) - (a->inode < b->inode);
 }
 
-static size_t identify_inputs(const wf_sequence *sequence, identity *inputs) {
+static size_t identify_inputs(const weft_job *job, const wf_sequence *sequence,
+                              identity *inputs) {
     size_t count = 0;
+    for (size_t i = 0; i < job->input_count; i++)
+        if (identify(job->inputs[i], &inputs[count])) count++;
     for (size_t k = 0; k < sequence->count; k++)
         if (sequence->refs[k].path && identify(sequence->refs[k].path, &inputs[count])) count++;
     qsort(inputs, count, sizeof *inputs, by_identity);
@@ -56,10 +59,10 @@ static weft_status check_outputs(const weft_job *job, const wf_setup *s, const i
 
 weft_status wf_refuse_own_inputs(const weft_job *job, const wf_setup *s, weft_error *err) {
     if (!job->overwrite) return WEFT_OK;
-    identity *inputs = malloc((s->sequence.count + 1) * sizeof *inputs);
+    identity *inputs = malloc((s->sequence.count + job->input_count + 1) * sizeof *inputs);
     if (!inputs) return wf_fail(err, WEFT_NO_MEMORY, "no memory to list the inputs");
-    size_t count = identify_inputs(&s->sequence, inputs);
-    weft_status status = check_outputs(job, s, inputs, count, err);
+    size_t count = identify_inputs(job, &s->sequence, inputs);
+    weft_status status = count ? check_outputs(job, s, inputs, count, err) : WEFT_OK;
     free(inputs);
     return status;
 }

@@ -137,7 +137,7 @@ weft_status wf_setup_video(const weft_job *job, wf_setup *s, weft_error *err) {
 
 void wf_setup_tell_frames(wf_setup *s) {
     s->output_options.first_frame = s->first_frame;
-    s->output_options.frame_count = s->end_frame - s->first_frame;
+    s->output_options.frame_count = s->endless ? -1 : s->end_frame - s->first_frame;
 }
 
 void wf_setup_frames(const weft_job *job, wf_setup *s, int64_t first, int64_t end) {

@@ -16,6 +16,7 @@
 typedef struct wf_setup {
     wf_sequence sequence;           /* the files that the source reads; empty: a scene, video */
     int64_t first_frame, end_frame; /* of this chunk */
+    bool endless;                   /* the source lowers end_frame when it meets its end */
     const char *scene_space; /* what the input says that its colors are in; NULL: nothing */
 
     wf_output output;

@@ -4,6 +4,7 @@
 /* What options with a fixed set of words choose between, in the order of the words. */
 
 typedef enum wf_fit { WF_FIT_STRETCH, WF_FIT_CROP, WF_FIT_PAD } wf_fit;
+typedef enum wf_input_scan { WF_INPUT_AS_TAGGED, WF_INPUT_PROGRESSIVE } wf_input_scan;
 typedef enum wf_on_missing {
     WF_MISSING_ERROR,
     WF_MISSING_HOLD,

@@ -31,7 +31,8 @@ struct weft_job {
     bool subframe_time_center;
     wf_fit fit;
     wf_rational input_par; /* {0,0}: from the files */
-    float background[3];   /* scene-linear */
+    wf_input_scan input_scan;
+    float background[3]; /* scene-linear */
     char *layer, *part;
     wf_alpha alpha; /* UNSET: as the files say */
 

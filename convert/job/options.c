@@ -88,6 +88,9 @@ static const wf_option_row rows[] = {
         "Whether color is yet to be multiplied by alpha, is multiplied already, or is taken as "
         "if there were no alpha.",
         set_choice, AT(alpha), .base = WF_ALPHA_STRAIGHT),
+    ROW(input, CONVERT, "input-scan", "file|progressive", "file",
+        "Whether video is scanned as it says, or progressive whatever it says.", set_choice,
+        AT(input_scan), INITIAL),
     ROW(input, CONVERT, "on-missing", "error|hold|black", "error",
         "What to do about subframes that are needed and absent.", set_choice, AT(on_missing),
         INITIAL),

@@ -32,9 +32,9 @@ typedef struct wf_output_options {
     wf_layout layout;
     int bits; /* of the codes; 32 for WF_LINEAR */
     bool full_range;
-    bool subsampled;     /* 4:2:2; false: 4:4:4 */
-    int64_t first_frame; /* of this chunk of the run */
-    int64_t frame_count;
+    bool subsampled;           /* 4:2:2; false: 4:4:4 */
+    int64_t first_frame;       /* of this chunk of the run */
+    int64_t frame_count;       /* -1: not known before the end */
     bool separate_fields;      /* sequences: a file a field */
     bool stream_header;        /* false: a later chunk, to be joined by cat */
     const char *timecode;      /* of frame 0; validated */

@@ -1,6 +1,8 @@
 /* What all kinds of video share: turning codes into signals, and running out of memory. */
 #include "convert/media/video_kind.h"
 
+#include <string.h>
+
 #include "color/codes/levels.h"
 
 weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
@@ -12,6 +14,11 @@ void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *c
     const wf_encoding encoding = {
         .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
     size_t width = (size_t)video->frame.width_px[plane];
+    if (video->take_codes) {
+        if (video->code[plane])
+            memcpy(video->code[plane] + (size_t)line * width, code, width * sizeof *code);
+        return;
+    }
     wf_decode_line(&encoding, plane, code, video->frame.plane[plane] + (size_t)line * width,
                    width);
 }

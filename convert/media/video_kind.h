@@ -10,7 +10,19 @@
 typedef struct wf_video_options {
     const wf_raster *raster; /* what it is, as the user says; NULL: as the file says */
     size_t max_memory_bytes; /* of one picture */
+    bool want_times;         /* of all pictures: info.times is filled where there are any */
 } wf_video_options;
+
+/* Where chroma lies among the luma samples that share it: with the first of a line and, where
+ * it is of two lines, between these; amid all of them; with the first of all. */
+typedef enum wf_siting { WF_SITING_LEFT, WF_SITING_CENTER, WF_SITING_TOP_LEFT } wf_siting;
+
+/* What a stream is tagged with: code points of Rec. ITU-T H.273, 2 where it does not say. */
+typedef struct wf_video_tags {
+    int primaries, transfer, matrix;
+    bool range_said;
+    wf_siting siting; /* where it says nothing, that of its kind of stream */
+} wf_video_tags;
 
 typedef struct wf_video_info {
     char format[96]; /* for people: "Y4M 422p10" */
@@ -27,6 +39,13 @@ typedef struct wf_video_info {
     bool scan_known;      /* the file or the user says how it is scanned: raster.scan is not a
                              guess */
     int64_t frames;       /* -1: not known before the end */
+    wf_video_tags tags;
+    wf_rational rate, aspect; /* as the file says; {0, 0}: it does not */
+    bool interlaced;          /* as the file says */
+    /* Where want_times asked for them and the file has them: when each picture is shown, in
+     * ticks from any zero, ascending, [frames]. Owned by the video. */
+    int64_t *times;
+    wf_rational tick_s;
 } wf_video_info;
 
 /* Planes R G B or Y Cb Cr, width_px[p] x lines[p], top line first, both fields woven. Signals:
@@ -63,10 +82,15 @@ struct wf_video {
     wf_video_options options;
     wf_video_info info;
     wf_video_frame frame;
+    /* Codes are wanted instead of signals: where each plane of them goes, [lines][width_px];
+     * NULL: nowhere, the frame is passed over. */
+    bool take_codes;
+    uint16_t *code[3];
     void *state; /* the kind's */
 };
 
-/* Codes of a line of a plane to signals, into the frame. */
+/* Takes the codes of a line of a plane: as signals into the frame, or where codes are wanted,
+ * there. */
 void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code);
 
 weft_status wf_video_no_memory(const wf_video *video, weft_error *err);

@@ -44,6 +44,7 @@ bool wf_y4m_parse(char *line, wf_y4m *out) {
         if (*word == 'I') out->order = word[1];
         if (*word == 'C') snprintf(out->chroma, sizeof out->chroma, "%s", word + 1);
         if (!strcmp(word, "XCOLORRANGE=FULL")) out->full_range = true;
+        if (!strncmp(word, "XCOLORRANGE=", 12)) out->range_said = true;
     }
     read_chroma(out);
     return out->width_px && out->lines && wf_ratio_given(out->rate) && out->rate.num > 0;

@@ -12,7 +12,7 @@ typedef struct wf_y4m {
     wf_rational rate, aspect; /* {0, 0}: unknown, which aspects may be */
     char order;               /* 'p', 't', 'b', 'm' (mixed); 0: unknown */
     char chroma[32];          /* "422p10"; "420jpeg" where the header has none */
-    bool full_range;
+    bool full_range, range_said;
     int bits;         /* of the codes; those beyond 8 take two bytes, low byte first */
     int across, down; /* luma samples to a chroma sample; 0, 0: no chroma */
     bool alpha;       /* a fourth plane, as large as the first */

@@ -42,7 +42,8 @@ wf_source_counts wf_reader_counts(const wf_reader *r) {
 }
 
 static weft_status no_memory(const wf_subframe *s, weft_error *err) {
-    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its rows", s->path);
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its rows",
+                   s->path ? s->path : "video");
 }
 
 /* ---- Reading chunks ---- */
@@ -295,10 +296,29 @@ static void whole_rows(const wf_subframe *s, int y0, int y1, wf_rows *rows) {
         rows->plane[c] = s->whole + (size_t)c * plane + (size_t)(y0 - data.y0) * width;
 }
 
+/* Makes the rows of a picture that is no file. They are finite. */
+static weft_status made_rows(wf_reader *r, const wf_subframe *s, int y0, int y1,
+                             weft_error *err) {
+    wf_box data = s->info.data;
+    r->rows = (wf_rows){.channels = 3, .y0 = y0, .y1 = y1, .x0 = data.x0, .x1 = data.x1};
+    size_t plane = plane_samples(&r->rows);
+    if (!wf_reserve(&r->plain, &r->plain_capacity, 3 * plane * sizeof(float)) ||
+        !wf_reserve(&r->tile, &r->tile_capacity, s->maker->scratch_bytes))
+        return no_memory(s, err);
+    point_at(&r->rows, r->plain);
+    for (int y = y0; y < y1; y++) {
+        float *at = r->plain + (size_t)(y - y0) * r->rows.line_stride;
+        s->maker->row(s->picture, y, r->tile, (float *[3]){at, at + plane, at + 2 * plane});
+    }
+    r->decoder.suspect = false;
+    return WEFT_OK;
+}
+
 static weft_status raw_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, bool *changed,
                             weft_error *err) {
     weft_status status = WEFT_OK;
     *changed = true;
+    if (s->maker) return made_rows(r, s, y0, y1, err);
     if (!s->exr) {
         r->held = false;
         r->decoder.suspect = true;

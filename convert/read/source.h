@@ -45,6 +45,18 @@ typedef struct wf_source_counts {
 weft_status wf_subframe_open(const char *path, int part, const wf_source_options *options,
                              wf_subframe **out, weft_error *err);
 void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */
+
+/* How rows of a picture that is no file are made: light, in float. */
+typedef struct wf_row_maker {
+    size_t scratch_bytes; /* that `row` needs, of the reader that calls it */
+    void (*row)(const void *picture, int y, void *scratch, float *const rgb[3]);
+    void (*close)(void *picture); /* by wf_subframe_close */
+} wf_row_maker;
+
+/* A picture of width_px by lines whose rows a maker makes, which is borrowed. Any thread; on
+ * failure the picture has been closed. */
+weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width_px, int lines,
+                             wf_subframe **out, weft_error *err);
 const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
 
 /* Which picture of the file it is: the part's name ("" if it has none, or the file has no

@@ -42,8 +42,25 @@ void wf_subframe_take(const wf_subframe *s, wf_taken_list *list) {
     wf_take(list, "alpha", alphas[s->info.alpha], wf_reason_name(s->alpha_reason));
 }
 
+weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width_px, int lines,
+                             wf_subframe **out, weft_error *err) {
+    wf_subframe *s = *out = calloc(1, sizeof *s);
+    if (!s) {
+        maker->close(picture);
+        return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture");
+    }
+    wf_box box = {0, 0, width_px, lines};
+    s->info = (wf_image_info){
+        .display = box, .data = box, .pixel_aspect = 1, .band_lines = 32, .whole = true};
+    s->maker = maker;
+    s->picture = picture;
+    s->layout.channels = 3;
+    return WEFT_OK;
+}
+
 void wf_subframe_close(wf_subframe *s) {
     if (!s) return;
+    if (s->maker) s->maker->close(s->picture);
     if (s->exr) exr_finish(&s->exr);
     free(s->whole);
     free(s->path);

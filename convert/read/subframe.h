@@ -33,10 +33,12 @@ struct wf_subframe {
     bool multiplies; /* color by alpha, which the file has not done */
     wf_image_info info;
     wf_exr_layout layout;
-    exr_context_t exr; /* NULL: read whole, through OpenImageIO */
-    bool opened;       /* the header has been read */
-    char trouble[256]; /* what was wrong with it */
-    float *whole;      /* [channels][height][width] of the data window */
+    exr_context_t exr;         /* NULL: read whole, through OpenImageIO */
+    bool opened;               /* the header has been read */
+    char trouble[256];         /* what was wrong with it */
+    const wf_row_maker *maker; /* NULL: it is a file */
+    void *picture;             /* the maker's */
+    float *whole;              /* [channels][height][width] of the data window */
 };
 
 /* Settles, of a picture whose channels are picked and whose info.alpha says how its format

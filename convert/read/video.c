@@ -96,6 +96,9 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
     wf_video_info *info = &v->info;
     info->scan_known = label->scan_known || given;
     info->transfer = label->transfer;
+    info->rate = label->rate;
+    info->aspect = label->aspect;
+    info->interlaced = label->scan_known && label->interlaced;
     if (!given) {
         find_raster(info, label);
         if (label->matrix_known) info->raster.matrix = label->matrix;
@@ -143,6 +146,11 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
     return WEFT_OK;
 }
 
+bool wf_video_is(const char *path) {
+    const wf_video_kind *kind;
+    return !find_kind(path, &kind, NULL) && (kind == &wf_video_y4m || kind == &wf_video_libav);
+}
+
 /* Measuring takes about twelve floats a pixel. */
 static weft_status check_memory(const wf_video *v, weft_error *err) {
     double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
@@ -180,7 +188,11 @@ weft_status wf_video_open(const char *path, const wf_video_options *options, wf_
     }
     v->kind = kind;
     v->options = *options;
-    v->info = (wf_video_info){.planes = 3, .across = 1, .down = 1, .frames = -1};
+    v->info = (wf_video_info){.planes = 3,
+                              .across = 1,
+                              .down = 1,
+                              .frames = -1,
+                              .tags = {2, 2, 2, false, WF_SITING_LEFT}};
     v->frame.index = -1;
     wf_video_label label = {0};
     status = kind->open(v, &label, err);
@@ -202,15 +214,30 @@ weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_er
     bool more = false;
     *frame = NULL;
     video->frame.index++;
+    video->take_codes = false;
     weft_status status = video->kind->next(video, &more, err);
     if (!status && more) *frame = &video->frame;
     return status;
+}
+
+weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
+                                weft_error *err) {
+    video->frame.index++;
+    video->take_codes = true;
+    for (int p = 0; p < 3; p++) video->code[p] = plane ? plane[p] : NULL;
+    return video->kind->next(video, more, err);
+}
+
+void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines) {
+    *width_px = video->frame.width_px[p];
+    *lines = video->frame.lines[p];
 }
 
 void wf_video_close(wf_video *video) {
     if (!video) return;
     video->kind->close(video);
     for (int p = 0; p < 3; p++) free(video->frame.plane[p]);
+    free(video->info.times);
     free(video->path);
     free(video);
 }

@@ -16,6 +16,18 @@ const wf_video_info *wf_video_info_of(const wf_video *video);
 /* The next frame, owned by the video and valid until the next call; NULL after the last. A file
  * that ends within a frame, or a picture of another size, is an error that says which. */
 weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_error *err);
+
+/* The same as codes: fills planes of the sizes that frame->width_px and lines state, or where
+ * they are NULL passes the picture over. *more is false, and nothing filled, after the last. */
+weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
+                                weft_error *err);
+
+/* How large plane p is. */
+void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines);
 void wf_video_close(wf_video *video); /* NULL is fine */
+
+/* Whether the name is that of a video, which is not a picture or a sequence of them: standard
+ * input or another pipe, Y4M, or a file for libav. */
+bool wf_video_is(const char *path);
 
 #endif

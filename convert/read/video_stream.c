@@ -56,6 +56,11 @@ static void close_stream(wf_video *v) {
     free(s);
 }
 
+/* When the frame in hand is shown. */
+static double time_s(const wf_video *v) {
+    return (double)v->frame.index / wf_ratio_value(v->info.raster.frame_rate);
+}
+
 /* One frame's bytes. */
 static weft_status read_bytes(wf_video *v, weft_error *err) {
     stream *s = v->state;
@@ -64,9 +69,8 @@ static weft_status read_bytes(wf_video *v, weft_error *err) {
     if (ferror(s->file)) return failed(v, err);
     return wf_fail(err, WEFT_FAILED,
                    "%s: the file ends within frame %" PRId64
-                   ", after %zu of its %zu bytes; write "
-                   "it again",
-                   v->path, v->frame.index, got, s->frame_bytes);
+                   " (%.3f s), after %zu of its %zu bytes; write it again",
+                   v->path, v->frame.index, time_s(v), got, s->frame_bytes);
 }
 
 /* ---- Y4M ---- */
@@ -91,6 +95,14 @@ static weft_status read_header(wf_video *v, weft_error *err) {
         v->path, s->header.chroma);
 }
 
+/* What writers of Y4M mean by its names for 4:2:0: plain and "jpeg" are amid the luma samples,
+ * and those of more than 8 bits, which came later, lie as in MPEG-2. */
+static wf_siting siting_of(const wf_y4m *h) {
+    if (h->down != 2 || h->bits > 8 || !strncmp(h->chroma, "420mpeg2", 8))
+        return WF_SITING_LEFT;
+    return strncmp(h->chroma, "420paldv", 8) ? WF_SITING_CENTER : WF_SITING_TOP_LEFT;
+}
+
 static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err) {
     weft_status status = open_file(v, err);
     if (!status) status = read_header(v, err);
@@ -107,6 +119,8 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     info->planes = h->across ? 3 : 1;
     info->across = h->across ? h->across : 1;
     info->down = h->down ? h->down : 1;
+    info->tags.range_said = h->range_said;
+    info->tags.siting = siting_of(h);
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
     info->frames = wf_y4m_count(h, s->file, ftell(s->file));
     *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
@@ -141,9 +155,9 @@ static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
     if (!strncmp(line, "FRAME", 5) && strchr(line, '\n')) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: frame %" PRId64
-                   " does not begin with the line FRAME: the file is damaged, "
+                   " (%.3f s) does not begin with the line FRAME: the file is damaged, "
                    "or its header does not say what it holds",
-                   v->path, v->frame.index);
+                   v->path, v->frame.index, time_s(v));
 }
 
 static weft_status y4m_next(wf_video *v, bool *more, weft_error *err) {

@@ -18,6 +18,9 @@ typedef struct wf_picture_desc {
 /* How a source's pictures are read. */
 typedef struct wf_picture_reading {
     wf_picture_desc (*describe)(const wf_run *run); /* once, after start */
+    /* Has units at hand that open is asked for next, by the run's one thread; fields before
+     * units->group_end are those in hand. NULL: nothing has to be done. */
+    weft_status (*prepare)(const wf_run *run, const wf_units *units, weft_error *err);
     /* Opens a picture, which the caller closes; any thread. NULL with WEFT_OK: it is missing,
      * and black. */
     weft_status (*open)(const wf_run *run, int64_t unit, wf_subframe **out, weft_error *err);

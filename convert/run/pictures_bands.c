@@ -35,6 +35,9 @@ static void open_one(void *user, wf_worker *worker, int i) {
 
 static weft_status open_all(batch *b, weft_error *err) {
     double start = wf_now_s();
+    const wf_picture_reading *reading = b->run->kind->pictures;
+    weft_status status = reading->prepare ? reading->prepare(b->run, b->units, err) : WEFT_OK;
+    if (status) return status;
     wf_crew_each(&b->run->crew, b->units->count, 1, open_one, b);
     b->run->crew.workers[0].source_s += wf_now_s() - start;
     for (int i = 0; i < b->units->count; i++) b->p->opened += b->picture[i] != NULL;

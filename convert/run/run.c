@@ -59,6 +59,19 @@ static weft_status finish(wf_run *run, int64_t first, int64_t end, weft_error *e
     return status;
 }
 
+/* Has the source read ahead to the end of the group that begins with field n, and lowers the
+ * flight's end to where the source has met its own. */
+static weft_status ready(wf_run *run, flight *f, int64_t n, int64_t *group_end,
+                         weft_error *err) {
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    *group_end = wf_walk_group_end(run, n, f->past);
+    if (!run->kind->ready) return WEFT_OK;
+    weft_status status = run->kind->ready(run, *group_end + run->pace.fields_carried, err);
+    if (f->past > run->setup.end_frame * per_frame) f->past = run->setup.end_frame * per_frame;
+    *group_end = wf_walk_group_end(run, n, f->past);
+    return status;
+}
+
 /* Makes frames first <= n < end. */
 static weft_status make_frames(wf_run *run, int64_t first, int64_t end, weft_error *err) {
     int per_frame = wf_raster_fields_per_frame(&run->job->raster);
@@ -66,8 +79,8 @@ static weft_status make_frames(wf_run *run, int64_t first, int64_t end, weft_err
     weft_status status = WEFT_OK;
     run->kind->summing->drop(run);
     for (int64_t n = f.next, group_end; !status && n < f.past; n = group_end) {
-        group_end = wf_walk_group_end(run, n, f.past);
-        status = accumulate(run, &f, n, group_end, err);
+        status = ready(run, &f, n, &group_end, err);
+        if (!status) status = accumulate(run, &f, n, group_end, err);
         if (!status) status = finish(run, n, group_end, err);
     }
     return status;
@@ -94,7 +107,7 @@ static weft_status settle(wf_run *run, weft_error *err) {
     if (!status) status = wf_setup_output(run->job, &run->setup, err);
     if (!status) status = run->kind->count(run, err);
     if (!status) status = wf_refuse_own_inputs(run->job, &run->setup, err);
-    run->crew.total = run->setup.end_frame - run->setup.first_frame;
+    run->crew.total = run->setup.endless ? 0 : run->setup.end_frame - run->setup.first_frame;
     return status;
 }
 

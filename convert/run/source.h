@@ -63,6 +63,9 @@ typedef struct wf_source_kind {
     weft_status (*count)(wf_run *run, weft_error *err);
     /* Gets ready for its first unit; NULL: it is. */
     weft_status (*start)(wf_run *run, weft_error *err);
+    /* Has what fields before `field` need at hand. A source that does not know its end before
+     * it has read that far lowers setup.end_frame when it meets it. NULL: it knows. */
+    weft_status (*ready)(wf_run *run, int64_t field, weft_error *err);
     wf_needs (*needs)(const wf_run *run, int64_t field); /* any field, any time after start */
     /* How its units are summed, and how they are read for that. The one that does not belong to
      * `summing` is NULL. */
@@ -89,6 +92,8 @@ const wf_source_kind *wf_source_for(const weft_job *job);
 extern const wf_source_kind wf_source_scene;
 /* Sample buffers: a unit is a deep EXR file, which holds a frame's samples. */
 extern const wf_source_kind wf_source_samples;
+/* Progressive video, or a pipe of it: a unit is a picture of the selection, counted from 0. */
+extern const wf_source_kind wf_source_video;
 /* Progressive pictures, more of them a second than there are fields: a unit is the file, or the
  * part of one, that has its number in the selection, counted from 0. */
 extern const wf_source_kind wf_source_subframes;

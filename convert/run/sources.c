@@ -4,6 +4,7 @@
 /* The last takes whatever is left. */
 static const wf_source_kind *const kinds[] = {
     &wf_source_scene,
+    &wf_source_video, /* before those that look into a file, which a pipe allows once only */
     &wf_source_samples,
     &wf_source_subframes,
 };

@@ -51,6 +51,11 @@ static wf_timecode start_of(const wf_output_options *o) {
 
 static weft_status start(wf_sink *s, weft_error *err) {
     const wf_output_options *o = &s->options;
+    if (o->frame_count < 0)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: its header says how many frames there are, which a pipe does not "
+                       "tell; give --frames, such as 0-99, or write another container",
+                       o->output);
     const wf_mxf_options options = {
         .raster = o->raster,
         .bits = o->bits,

@@ -26,7 +26,8 @@ struct wf_sink {
 
 static weft_status check_name(const wf_output_options *o, weft_error *err) {
     int64_t files = o->frame_count * wf_output_files(o);
-    if (wf_pattern_is(o->output) || (files <= 1 && !o->first_frame)) return WEFT_OK;
+    if (wf_pattern_is(o->output) || (files >= 0 && files <= 1 && !o->first_frame))
+        return WEFT_OK;
     const char *dot = strrchr(o->output, '.');
     return wf_fail(err, WEFT_USAGE,
                    "%.500s: there are %" PRId64 " %s, and each is a file; say where its number "

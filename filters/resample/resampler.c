@@ -95,6 +95,10 @@ wf_window wf_resampler_window(const wf_resampler *rs, int64_t field) {
     return wf_timing_field(&rs->timing, field, rs->desc.raster->lines);
 }
 
+void wf_resampler_set_end(wf_resampler *rs, int64_t subframes) {
+    rs->timing.subframes = rs->desc.timing.subframes = subframes;
+}
+
 int wf_resampler_bands(const wf_resampler *rs) {
     return rs->band_count;
 }

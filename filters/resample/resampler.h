@@ -32,6 +32,10 @@ bool wf_resampler_new(const wf_resample_desc *desc, wf_resampler **out, char *wh
                       size_t why_size);
 void wf_resampler_free(wf_resampler *resampler);
 
+/* Sets how many subframes there are, where that is found out late: before a field whose window
+ * reaches beyond them is made. */
+void wf_resampler_set_end(wf_resampler *resampler, int64_t subframes);
+
 /* Subframes that some line of field n needs. */
 wf_window wf_resampler_window(const wf_resampler *resampler, int64_t field);
 

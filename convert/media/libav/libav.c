@@ -2,6 +2,8 @@
  * libavcodec can read. */
 #include "convert/media/libav/libav.h"
 
+#include "convert/media/libav/libav_times.h"
+
 #include <inttypes.h>
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -96,9 +98,12 @@ static weft_status feed(wf_video *v, weft_error *err) {
         code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
     av_packet_unref(r->packet);
     if (code >= 0) return WEFT_OK;
-    char doing[64];
-    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64,
-             v->frame.index < 0 ? 0 : v->frame.index);
+    char doing[96];
+    int64_t frame = v->frame.index < 0 ? 0 : v->frame.index;
+    AVRational rate = r->format->streams[r->stream]->avg_frame_rate;
+    double at_s = rate.num > 0 ? (double)frame / av_q2d(rate) : 0;
+    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64 " (%.3f s)",
+             frame, at_s);
     return failed(v, doing, code, err);
 }
 
@@ -160,6 +165,19 @@ static void label_color(const reading *r, wf_video_label *label) {
                                                                : WF_TRANSFER_BT1886;
 }
 
+/* H.273's code points are libav's own numbers. QuickTime's and MPEG's chroma lies to the left
+ * where nothing is said, JPEG's amid. */
+static wf_video_tags tags_of(const reading *r, bool jpeg) {
+    const AVFrame *f = r->frame;
+    wf_siting siting = jpeg ? WF_SITING_CENTER : WF_SITING_LEFT;
+    if (f->chroma_location == AVCHROMA_LOC_CENTER) siting = WF_SITING_CENTER;
+    if (f->chroma_location == AVCHROMA_LOC_TOPLEFT) siting = WF_SITING_TOP_LEFT;
+    if (f->chroma_location == AVCHROMA_LOC_LEFT) siting = WF_SITING_LEFT;
+    bool range_said = jpeg || f->color_range != AVCOL_RANGE_UNSPECIFIED;
+    return (wf_video_tags){(int)f->color_primaries, (int)f->color_trc, (int)f->colorspace,
+                           range_said, siting};
+}
+
 static weft_status describe_pixels(wf_video *v, weft_error *err) {
     reading *r = v->state;
     const AVPixFmtDescriptor *d = r->pixels =
@@ -180,6 +198,7 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
     info->planes = d->nb_components < 3 ? 1 : 3;
     info->across = 1 << d->log2_chroma_w;
     info->down = 1 << d->log2_chroma_h;
+    info->tags = tags_of(r, jpeg);
     return WEFT_OK;
 }
 
@@ -238,6 +257,8 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     if (!status) status = describe_pixels(v, err);
     if (status) return status;
     describe_stream(v, label);
+    if (v->options.want_times) status = wf_libav_times(v, r->stream, err);
+    if (status) return status;
     r->code = malloc((size_t)v->info.width_px * sizeof *r->code);
     return r->code ? WEFT_OK : wf_video_no_memory(v, err);
 }
@@ -302,9 +323,8 @@ static weft_status check_end(const wf_video *v, weft_error *err) {
     if (r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: it ends after %" PRId64
-                   " frames, before what it says is its end; write "
-                   "it again",
-                   v->path, v->frame.index);
+                   " frames (%.3f s), before what it says is its end; write it again",
+                   v->path, v->frame.index, (double)v->frame.index * frame_s);
 }
 
 static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {

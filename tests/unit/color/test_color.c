@@ -82,7 +82,8 @@ static const struct {
 } inputs[] = {
     {"lin_rec709", WF_PRIMARIES_709}, {"ACEScg", WF_PRIMARIES_AP1},
     {"ACES2065-1", WF_PRIMARIES_AP0}, {"lin_rec2020", WF_PRIMARIES_2020},
-    {"lin_p3d65", WF_PRIMARIES_P3},
+    {"lin_p3d65", WF_PRIMARIES_P3},   {"lin_rec601-525", WF_PRIMARIES_SMPTE_C},
+    {"lin_rec601-625", WF_PRIMARIES_EBU},
 };
 enum { INPUTS = sizeof inputs / sizeof *inputs };
 

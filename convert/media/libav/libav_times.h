@@ -1,0 +1,11 @@
+#ifndef WF_CONVERT_MEDIA_LIBAV_LIBAV_TIMES_H
+#define WF_CONVERT_MEDIA_LIBAV_LIBAV_TIMES_H
+
+#include "convert/media/video_kind.h"
+
+/* Fills video->info.times, tick_s and frames from the packets of a stream, without decoding
+ * any; leaves times NULL, and frames as they are, where packets have no time or the file cannot
+ * be read twice. */
+weft_status wf_libav_times(wf_video *video, int stream, weft_error *err);
+
+#endif

@@ -1,0 +1,407 @@
+/* Progressive video as a source: a file that libav or weft reads, or a pipe. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/base/range.h"
+#include "convert/run/fitting.h"
+#include "convert/run/pictures.h"
+#include "convert/run/timecode_start.h"
+#include "convert/video/light.h"
+#include "convert/video/rate.h"
+#include "convert/video/window.h"
+
+/* Frames of a pipe before its end is met, and fields that tell how windows overlap. */
+#define ENDLESS_FRAMES   (INT64_C(1) << 31)
+#define FIELDS_LOOKED_AT 65536
+
+/* run->source */
+typedef struct video_source {
+    const char *path; /* the job's */
+    wf_video_info info;
+    wf_meaning meaning;
+    wf_light *light;
+    wf_video_window *window;
+    wf_row_maker maker;
+    wf_source_options options; /* of no consequence: nothing is read from files */
+    wf_image_info first;
+    int64_t picture, step, count; /* unit u is picture + u step; count -1: not known yet */
+    wf_timing_desc timing;
+    wf_resampler *resampler;
+    int64_t end_field;
+} video_source;
+
+static bool takes(const weft_job *job) {
+    return job->command == WF_CONVERT && job->input_count && wf_video_is(job->inputs[0]);
+}
+
+static void close_input(wf_run *run) {
+    video_source *s = run->source;
+    if (!s) return;
+    wf_resampler_free(s->resampler);
+    wf_video_window_free(s->window);
+    wf_light_free(s->light);
+    free(s);
+    run->source = NULL;
+}
+
+/* ---- What it is ---- */
+
+static weft_status refuse_interlaced(const wf_run *run, weft_error *err) {
+    const video_source *s = run->source;
+    if (!s->info.interlaced || run->job->input_scan == WF_INPUT_PROGRESSIVE) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: it says that it is interlaced, and fields are made of progressive "
+                   "pictures; deinterlace it first, such as with ffmpeg -i %s -vf "
+                   "bwdif=mode=send_field -c:v ffv1 OUT.mkv, or where what it says is wrong "
+                   "give --input-scan progressive",
+                   s->path, s->path);
+}
+
+/* Guesses that can be wrong are told. */
+static void tell_meaning(const wf_run *run) {
+    const video_source *s = run->source;
+    const wf_meaning *m = &s->meaning;
+    if (m->tagged) return;
+    wf_job_warn(run->job, "%s: its colors are not all tagged: taken as %s, %s, %s range",
+                s->path, wf_primaries_name(m->primaries), wf_transfer_name(m->transfer),
+                s->info.full_range ? "full" : "narrow");
+}
+
+static weft_status open_video(wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    wf_video *video;
+    const wf_video_options options = {.max_memory_bytes = run->job->max_memory_bytes,
+                                      .want_times = true};
+    weft_status status = wf_video_open(s->path, &options, &video, err);
+    if (status) return status;
+    s->info = *wf_video_info_of(video);
+    return wf_video_window_new(video, run->job->max_memory_bytes / 2, &s->window, err);
+}
+
+static weft_status open_input(wf_run *run, weft_error *err) {
+    const weft_job *job = run->job;
+    video_source *s = run->source = calloc(1, sizeof *s);
+    if (!s) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the job");
+    s->path = job->inputs[0];
+    if (job->input_count > 1)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "%s is video, of which one file is taken at a time, and %s is given too; "
+            "convert them one by one, or join them first",
+            s->path, job->inputs[1]);
+    weft_status status = open_video(run, err);
+    if (!status) status = refuse_interlaced(run, err);
+    if (!status) status = wf_meaning_of(&s->info, s->path, &s->meaning, err);
+    if (!status) status = wf_light_new(&s->info, &s->meaning, &s->light, err);
+    if (status) return status;
+    tell_meaning(run);
+    run->setup.scene_space = s->meaning.space;
+    return WEFT_OK;
+}
+
+/* ---- Which pictures ---- */
+
+static weft_status select_pictures(const weft_job *job, video_source *s, weft_error *err) {
+    wf_frame_range range;
+    wf_rational *numbers = NULL, step;
+    weft_status status = wf_range_parse(job->frames, WF_RANGE_MOST, &range, err);
+    if (!status) status = wf_range_numbers(&range, job->frames, &numbers, &step, err);
+    s->count = range.count;
+    bool whole = !status && range.runs == 1 && numbers[0].den == 1 && numbers[0].num >= 0 &&
+                 step.den <= 1;
+    if (whole) {
+        s->picture = numbers[0].num;
+        s->step = step.den ? step.num : 1;
+    }
+    free(numbers);
+    wf_range_free(&range);
+    if (status || whole) return status;
+    return wf_fail(err, WEFT_USAGE,
+                   "--frames %s: pictures of video are counted from 0, and one run of them is "
+                   "taken, such as 0-99 or 0-99x2",
+                   job->frames);
+}
+
+static weft_status settle_pictures(const weft_job *job, video_source *s, weft_error *err) {
+    int64_t there = s->info.frames;
+    s->step = 1;
+    s->count = there;
+    if (!job->frames) return WEFT_OK;
+    weft_status status = select_pictures(job, s, err);
+    if (status) return status;
+    int64_t last = s->picture + (s->count - 1) * s->step;
+    if (there < 0 || last < there) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: --frames %s, and its pictures are numbered 0 to %" PRId64, s->path,
+                   job->frames, there - 1);
+}
+
+/* What cannot be done before the end is known. */
+static weft_status check_pipe(const weft_job *job, const video_source *s, weft_error *err) {
+    const char *what = job->chunk_count > 1 ? "--chunk"
+                       : job->dry_run       ? "--dry-run"
+                       : job->resume        ? "--resume"
+                                            : NULL;
+    if (s->count >= 0 || !what) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: how many pictures it holds is known at its end only, and %s takes that "
+                   "number; give --frames, such as 0-99, or a file",
+                   s->path, what);
+}
+
+/* ---- Time ---- */
+
+static weft_status settle_rate(const weft_job *job, const video_source *s, wf_rational *rate,
+                               weft_error *err) {
+    *rate = job->subframe_rate;
+    if (wf_ratio_given(*rate)) return WEFT_OK;
+    weft_status status = wf_video_rate(&s->info, s->path, rate, err);
+    if (!status) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
+    return status;
+}
+
+static void warn_of_few(const wf_run *run, wf_rational rate) {
+    const wf_raster *raster = &run->job->raster;
+    double fields = 1 / wf_ratio_value(wf_raster_field_period(raster));
+    if (raster->pulldown || wf_ratio_value(rate) >= fields * (1 - 1e-9)) return;
+    wf_job_warn(run->job,
+                "%s: %.6g pictures a second are fewer than the %.6g fields a second of %s: "
+                "fields will repeat pictures",
+                run->job->inputs[0], wf_ratio_value(rate), fields, raster->name);
+}
+
+/* ---- Fields ---- */
+
+static void describe_first(video_source *s) {
+    double aspect = wf_ratio_given(s->info.aspect) && s->info.aspect.num > 0
+                        ? wf_ratio_value(s->info.aspect)
+                        : 1;
+    s->first = (wf_image_info){.display = {0, 0, s->info.width_px, s->info.lines},
+                               .data = {0, 0, s->info.width_px, s->info.lines},
+                               .pixel_aspect = aspect,
+                               .rate = s->info.rate,
+                               .frames = s->info.rate};
+}
+
+static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
+    const weft_job *job = run->job;
+    video_source *s = run->source;
+    s->timing = (wf_timing_desc){
+        .raster = &job->raster,
+        .subframe_rate = rate,
+        .subframe_center = job->subframe_time_center,
+        .subframes = s->count < 0 ? ENDLESS_FRAMES * WF_UNITS_TOGETHER : s->count,
+        .width = wf_setup_width(job),
+        .position = job->shutter_position,
+        .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)};
+    wf_resample_desc desc = {
+        .raster = &job->raster,
+        .aperture = job->aperture,
+        .timing = s->timing,
+        .channels = 3,
+        .background = {job->background[0], job->background[1], job->background[2]},
+        .band_rows = 16,
+    };
+    wf_fit_picture(job, &s->first, &desc.x, &desc.y);
+    return desc;
+}
+
+static weft_status too_few(const wf_run *run, int64_t count, weft_error *err) {
+    const video_source *s = run->source;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: %" PRId64 " pictures at %" PRId64 "/%" PRId64
+                   " a second do not fill one frame of %s",
+                   s->path, count, s->timing.subframe_rate.num, s->timing.subframe_rate.den,
+                   run->job->raster.name);
+}
+
+static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err) {
+    video_source *s = run->source;
+    const wf_resample_desc desc = describe_fields(run, rate);
+    int64_t frames = s->count < 0 ? ENDLESS_FRAMES : wf_timing_frames(&desc.timing);
+    char why[512];
+    if (frames < 1) return too_few(run, s->count, err);
+    run->setup.endless = s->count < 0;
+    wf_setup_frames(run->job, &run->setup, 0, frames);
+    s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
+    if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
+    return WEFT_OK;
+}
+
+static weft_status count(wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    const weft_job *job = run->job;
+    wf_rational rate;
+    weft_status status = settle_pictures(job, s, err);
+    if (!status) status = check_pipe(job, s, err);
+    if (!status) status = settle_rate(job, s, &rate, err);
+    if (status) return status;
+    describe_first(s);
+    warn_of_few(run, rate);
+    status = settle_fields(run, rate, err);
+    if (!status) wf_start_timecode(job, &run->setup, &s->first);
+    return status;
+}
+
+static wf_needs needs(const wf_run *run, int64_t field) {
+    const video_source *s = run->source;
+    wf_window window = wf_resampler_window(s->resampler, field);
+    return (wf_needs){window.first, window.first + window.count};
+}
+
+/* ---- Decoding ---- */
+
+static weft_status ends_early(const video_source *s, int64_t unit, weft_error *err) {
+    int64_t held = wf_video_window_end(s->window);
+    double at_s = (double)unit / wf_ratio_value(s->timing.subframe_rate);
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: it ends after %" PRId64 " pictures, at %.3f s, and %" PRId64
+                   " were expected; it was cut off, or --frames asks for more than there are",
+                   s->path, held, at_s, s->picture + (s->count - 1) * s->step + 1);
+}
+
+/* Decodes up to and with a unit, and keeps it; those before it are kept from `keep` on. */
+static weft_status decode_to(video_source *s, int64_t unit, int64_t keep, weft_error *err) {
+    int64_t number = s->picture + unit * s->step;
+    weft_status status = WEFT_OK;
+    while (!status && wf_video_window_next(s->window) <= number &&
+           wf_video_window_end(s->window) < 0) {
+        int64_t next = wf_video_window_next(s->window) - s->picture;
+        bool selected = next >= 0 && next % s->step == 0;
+        bool kept = selected && (next / s->step >= keep || next / s->step == unit);
+        status = wf_video_window_advance(s->window, kept, err);
+    }
+    return status;
+}
+
+/* How many units there are, as far as is known. */
+static int64_t units_read(const video_source *s) {
+    int64_t past = wf_video_window_next(s->window) - s->picture;
+    return past <= 0 ? 0 : (past + s->step - 1) / s->step;
+}
+
+static weft_status meet_end(wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    s->count = units_read(s);
+    s->timing.subframes = s->count;
+    wf_resampler_set_end(s->resampler, s->count);
+    int64_t frames = s->count ? wf_timing_frames(&s->timing) : 0;
+    if (frames < run->setup.end_frame) run->setup.end_frame = frames;
+    return frames < 1 ? too_few(run, s->count, err) : WEFT_OK;
+}
+
+/* Of a pipe it reads all that these fields see, and so much that they are known to be part of a
+ * frame that is there. */
+static weft_status ready(wf_run *run, int64_t field, weft_error *err) {
+    video_source *s = run->source;
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    int64_t frames = (field + per_frame - 1) / per_frame;
+    weft_status status = WEFT_OK;
+    while (!status && s->count < 0) {
+        wf_timing_desc so_far = s->timing;
+        so_far.subframes = units_read(s);
+        bool enough = so_far.subframes >= needs(run, field - 1).end && so_far.subframes &&
+                      wf_timing_frames(&so_far) >= frames;
+        if (enough) return WEFT_OK;
+        status = decode_to(s, so_far.subframes, 0, err);
+        if (!status && wf_video_window_end(s->window) >= 0) return meet_end(run, err);
+    }
+    return status;
+}
+
+/* After the last picture of a file, which tells whether the file is whole. */
+static weft_status check_end(const video_source *s, weft_error *err) {
+    bool last = wf_video_window_next(s->window) == s->info.frames;
+    return last ? wf_video_window_advance(s->window, false, err) : WEFT_OK;
+}
+
+/* Pictures are forgotten that neither these units are nor a later field needs: where fields are
+ * not carried, and where frames are left out, what follows may see some of them again. */
+static weft_status prepare(const wf_run *run, const wf_units *units, weft_error *err) {
+    video_source *s = run->source;
+    int64_t later = needs(run, units->group_end).first, first = units->unit[0];
+    bool again = !run->pace.fields_carried || run->job->resume;
+    int64_t keep = again ? later : INT64_MAX;
+    weft_status status = WEFT_OK;
+    wf_video_window_forget(s->window, s->picture + (first < keep ? first : keep) * s->step);
+    for (int i = 0; !status && i < units->count; i++) {
+        status = decode_to(s, units->unit[i], keep, err);
+        bool met = wf_video_window_end(s->window) >= 0;
+        if (!status && met && units_read(s) <= units->unit[i])
+            status = ends_early(s, units->unit[i], err);
+    }
+    return status ? status : check_end(s, err);
+}
+
+/* ---- Pictures ---- */
+
+typedef struct shown {
+    const wf_light *light;
+    const uint16_t *plane[3];
+} shown;
+
+static void make_row(const void *picture, int y, void *scratch, float *const rgb[3]) {
+    const shown *p = picture;
+    wf_light_row(p->light, p->plane, y, scratch, rgb);
+}
+
+static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
+                                weft_error *err) {
+    const video_source *s = run->source;
+    shown *p = calloc(1, sizeof *p);
+    if (!p) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture");
+    p->light = s->light;
+    if (!wf_video_window_find(s->window, s->picture + k * s->step, p->plane)) {
+        free(p);
+        return wf_fail(err, WEFT_FAILED, "%s: picture %" PRId64 " has passed", s->path, k);
+    }
+    return wf_subframe_made(&s->maker, p, s->info.width_px, s->info.lines, out, err);
+}
+
+static bool same(const wf_run *run, int64_t a, int64_t b) {
+    (void)run;
+    return a == b;
+}
+
+/* Pictures in memory at once, as codes. */
+#define MOST_BYTES ((size_t)64 << 20)
+
+static int open_together(const video_source *s) {
+    size_t pictures = MOST_BYTES / wf_video_window_picture_bytes(s->window);
+    return pictures < 1 ? 1 : pictures > WF_UNITS_TOGETHER ? WF_UNITS_TOGETHER : (int)pictures;
+}
+
+static wf_picture_desc describe(const wf_run *run) {
+    video_source *s = run->source;
+    int64_t looked_at = s->end_field < FIELDS_LOOKED_AT ? s->end_field : FIELDS_LOOKED_AT;
+    s->maker = (wf_row_maker){wf_light_scratch(s->light), make_row, free};
+    return (wf_picture_desc){s->resampler, &s->options, open_together(s), looked_at};
+}
+
+static void tell(const wf_run *run, wf_report *report) {
+    const video_source *s = run->source;
+    report->listed = s->count < 0 ? 0 : s->count;
+}
+
+static const wf_picture_reading reading = {
+    .describe = describe,
+    .prepare = prepare,
+    .open = open_picture,
+    .same = same,
+};
+
+const wf_source_kind wf_source_video = {
+    .name = "video",
+    .takes = takes,
+    .open = open_input,
+    .count = count,
+    .ready = ready,
+    .needs = needs,
+    .summing = &wf_summing_pictures,
+    .pictures = &reading,
+    .tell = tell,
+    .close = close_input,
+};

@@ -1,0 +1,24 @@
+#ifndef WF_CONVERT_VIDEO_LIGHT_H
+#define WF_CONVERT_VIDEO_LIGHT_H
+
+#include "convert/video/meaning.h"
+
+/* Rows of light from the codes of a picture: chroma at every luma sample, R'G'B' by the matrix
+ * and the range, light by the transfer, all of it in double but the last step. 1 is reference
+ * white, and what lies below black, above white or out of gamut is kept. */
+typedef struct wf_light wf_light;
+
+/* Light from codes of this kind, planes of the sizes that Rec. ITU-R BT.601's subsampling
+ * gives. Borrows nothing; any number of threads may use it. wf_light_free frees it. */
+weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning, wf_light **out,
+                         weft_error *err);
+void wf_light_free(wf_light *light); /* NULL is fine */
+
+/* Bytes of scratch that a row needs, aligned for doubles. */
+size_t wf_light_scratch(const wf_light *light);
+
+/* Row y of the picture whose codes are in plane, [lines][width_px] each. */
+void wf_light_row(const wf_light *light, const uint16_t *const plane[3], int y, void *scratch,
+                  float *const rgb[3]);
+
+#endif

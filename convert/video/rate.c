@@ -1,0 +1,78 @@
+/* Pictures a second of video, from what it states and from its timestamps. */
+#include "convert/video/rate.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+/* More pictures a second than any camera takes, and fewer than any video has. */
+#define MOST_RATE  1000000.0
+#define LEAST_RATE 0.001
+
+__extension__ typedef __int128 wide;
+
+/* Whether picture k is within a tick of k / rate for all k; else *at is the first that is not.
+ */
+static bool fits(const wf_video_info *info, wf_rational rate, int64_t *at) {
+    /* k / rate in ticks is k ticks_num / ticks_den. */
+    wide num = (wide)rate.den * info->tick_s.den, den = (wide)rate.num * info->tick_s.num;
+    for (int64_t k = 0; k < info->frames; k++) {
+        wide off = (wide)(info->times[k] - info->times[0]) * den - k * num;
+        *at = k;
+        if (off > den || off < -den) return false;
+    }
+    return true;
+}
+
+static wf_rational mean_rate(const wf_video_info *info) {
+    int64_t last = info->frames - 1, ticks = info->times[last] - info->times[0];
+    if (ticks < 1) return (wf_rational){0, 0};
+    return wf_ratio_div(wf_ratio(last, ticks), info->tick_s);
+}
+
+/* Rates in use that lie within a thousandth of the mean; with a little luck one of them is what
+ * was meant. */
+static bool find_usual(const wf_video_info *info, wf_rational mean, wf_rational *rate) {
+    double value = wf_ratio_value(mean);
+    int64_t near = (int64_t)(value + 0.5), at;
+    const wf_rational usual[] = {wf_ratio(near, 1), wf_ratio(near * 1000, 1001)};
+    for (size_t i = 0; near && i < sizeof usual / sizeof *usual; i++)
+        if (fits(info, usual[i], &at)) {
+            *rate = usual[i];
+            return true;
+        }
+    return false;
+}
+
+static weft_status check(const char *path, wf_rational rate, weft_error *err) {
+    double value = wf_ratio_given(rate) && rate.num > 0 ? wf_ratio_value(rate) : 0;
+    if (value == 0)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: it does not say how many pictures a second it has; give "
+                       "--subframe-rate, such as 50 or 60000/1001",
+                       path);
+    if (value >= LEAST_RATE && value <= MOST_RATE) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: it says that it has %" PRId64 "/%" PRId64
+                   " pictures a second, which cannot be; say how many by --subframe-rate",
+                   path, rate.num, rate.den);
+}
+
+weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_rational *rate,
+                          weft_error *err) {
+    int64_t at = 0;
+    *rate = info->rate;
+    if (!info->times || info->frames < 2) return check(path, *rate, err);
+    weft_status status = check(path, *rate, NULL);
+    if (!status && fits(info, *rate, &at)) return WEFT_OK;
+    wf_rational mean = mean_rate(info);
+    if (!check(path, mean, NULL) && find_usual(info, mean, rate)) return WEFT_OK;
+    *rate = mean;
+    if (!check(path, mean, NULL) && fits(info, mean, &at)) return WEFT_OK;
+    double at_s = (double)(info->times[at] - info->times[0]) * wf_ratio_value(info->tick_s);
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its pictures do not last equally long (the first to be out of step is "
+                   "number %" PRId64 ", at %.3f s); make their rate constant, such as with "
+                   "ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give --subframe-rate to "
+                   "take them as equally long",
+                   path, at, at_s);
+}

@@ -1,0 +1,34 @@
+#ifndef WF_CONVERT_VIDEO_WINDOW_H
+#define WF_CONVERT_VIDEO_WINDOW_H
+
+#include "convert/read/video.h"
+
+/* A window of decoded pictures, which moves forward over a video. Pictures are numbered from 0
+ * and kept as codes. It is moved by one thread; while it stands still, any may look through it.
+ */
+typedef struct wf_video_window wf_video_window;
+
+/* Takes the video over: wf_video_window_free closes it. At most most_bytes of pictures are kept
+ * at once. */
+weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_window **out,
+                                weft_error *err);
+void wf_video_window_free(wf_video_window *window); /* NULL is fine */
+
+size_t wf_video_window_picture_bytes(const wf_video_window *window);
+
+/* The picture that is decoded next; how many there are in all, -1 until the end was met. */
+int64_t wf_video_window_next(const wf_video_window *window);
+int64_t wf_video_window_end(const wf_video_window *window);
+
+/* Forgets the pictures before `number`. */
+void wf_video_window_forget(wf_video_window *window, int64_t number);
+
+/* Decodes the next picture, and keeps it or passes it over. At the end it sets
+ * wf_video_window_end instead. */
+weft_status wf_video_window_advance(wf_video_window *window, bool keep, weft_error *err);
+
+/* The codes of a picture that is kept, until it is forgotten; false: it is not. */
+bool wf_video_window_find(const wf_video_window *window, int64_t number,
+                          const uint16_t *plane[3]);
+
+#endif

@@ -1,0 +1,124 @@
+#!/bin/bash
+# Video as a source: rates, pipes, chunks, what is refused and what is damaged.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_jobs.sh converts"
+
+# y4m FILE HEADER COUNT CODES: COUNT pictures in Y4M of 10 bits 4:4:4, each of one gray of a list
+# of codes that is gone through again and again.
+y4m()
+{
+    python3 - "$@" <<'P'
+import sys
+name, header, count, codes = sys.argv[1], sys.argv[2], int(sys.argv[3]), [int(c) for c in sys.argv[4:]]
+words = dict((w[0], w[1:]) for w in header.split())
+pixels = int(words["W"]) * int(words["H"])
+with open(name, "wb") as f:
+    f.write(b"YUV4MPEG2 %s\n" % header.encode())
+    for k in range(count):
+        f.write(b"FRAME\n" + codes[k % len(codes)].to_bytes(2, "little") * pixels +
+                (512).to_bytes(2, "little") * (2 * pixels))
+P
+}
+
+# first_code FILE CODE FRAMES: the first luma of all frames of 64x32 4:2:2 of 10 bits is CODE.
+first_code()
+{
+    python3 - "$@" <<'P'
+import sys
+data, code, frames = open(sys.argv[1], "rb").read(), int(sys.argv[2]), int(sys.argv[3])
+size = 64 * 32 * 4 + 6
+data = data[data.index(b"\n") + 1:]
+got = [int.from_bytes(data[at + 6 + 2000:at + 6 + 2002], "little") for at in range(0, len(data), size)]
+if len(got) != frames or any(abs(g - code) > 1 for g in got): sys.exit("codes %r, not %d times %d" % (got, frames, code))
+P
+}
+
+box="--raster 64x32@25i --aperture box --temporal-width 1 --bits 10 --dither none -q --overwrite"
+y4m turns.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 100 64 940
+
+# ---- Light before the aperture ----
+
+check "black and white in turn" exits 0 weft convert turns.y4m $box -o o.y4m
+check "are half the light" first_code o.y4m 720 25
+check "a pipe" exits 0 bash -c "cat turns.y4m | '$WEFT' convert - $box -o p.y4m"
+check "is the same" cmp o.y4m p.y4m
+check "a named pipe" exits 0 weft convert <(cat turns.y4m) $box -o p.y4m
+check "is the same" cmp o.y4m p.y4m
+for chunk in 1/3 2/3 3/3; do weft convert turns.y4m $box --chunk $chunk -o c${chunk%/3}.y4m; done
+check "chunks are the whole" cmp <(cat c1.y4m c2.y4m c3.y4m) o.y4m
+check "some pictures" exits 0 weft convert turns.y4m $box --frames 20-59 -o f.y4m
+check "are fewer frames" first_code f.y4m 720 10
+check "every second one" exits 0 weft convert turns.y4m $box --frames 0-99x2 -o f.y4m
+check "is black" first_code f.y4m 64 25
+check "some of a pipe" exits 0 weft convert - $box --frames 20-59 -o p.y4m <turns.y4m
+check "are the same" exits 0 weft convert turns.y4m $box --frames 20-59 -o f.y4m
+check "as of a file" cmp f.y4m p.y4m
+check "a dry run" exits 0 weft convert turns.y4m $box --dry-run -o new.y4m --report -
+check "counts" value "d['plan']['frames'] == 25 and d['input']['listed'] == 100"
+check "untagged" exits 0 weft convert turns.y4m --raster 64x32@25i --overwrite -o o2.y4m
+check "is told" says "601, 525 lines, BT.1886, narrow"
+check "few pictures" exits 0 weft convert turns.y4m --raster 64x32@60i --overwrite -o o2.y4m
+check "are warned of" says "fields will repeat"
+check "a rate of one's own" exits 0 weft convert turns.y4m $box --subframe-rate 200 -o f.y4m
+check "is taken" first_code f.y4m 720 12
+
+# ---- Containers ----
+
+if has_libav && has ffmpeg; then
+    coded() { quiet_ffmpeg -i turns.y4m "${@:2}" "$1"; }
+    coded turns.mkv -c:v ffv1
+    coded turns.mov -c:v ffv1 -color_primaries bt709 -color_trc bt709 -colorspace bt709 -color_range tv
+    for file in turns.mkv turns.mov; do
+        check "$file" exits 0 weft convert $file $box -o o3.y4m
+        check "its light" first_code o3.y4m 720 25
+    done
+    check "a tagged file" exits 0 weft convert turns.mov --raster 64x32@25i --overwrite -o o3.y4m
+    check "is not told of" [ -z "$(grep tagged said)" ]
+    # Milliseconds do not tell 240000/1001.
+    y4m fast.y4m "W64 H32 F240000:1001 Ip A1:1 C444p10" 60 64 940
+    quiet_ffmpeg -i fast.y4m -c:v ffv1 fast.mkv
+    check "milliseconds" exits 0 weft convert fast.mkv ${box/25i/30000\/1001i} -o m.y4m
+    check "the rate itself" exits 0 weft convert fast.y4m ${box/25i/30000\/1001i} -o y.y4m
+    check "are one" cmp m.y4m y.y4m
+    check "it replaces itself" exits 2 weft convert turns.mkv --raster 64x32@25i --overwrite -o turns.mkv
+    check "which is said" says "would replace an input"
+    quiet_ffmpeg -i turns.y4m -vf "setpts=N*(1+mod(N\,3))/100/TB/2" -fps_mode passthrough -c:v ffv1 uneven.mkv
+    check "uneven times" fails "do not last equally long" weft convert uneven.mkv $box -o no.y4m
+    head -c $(($(stat -c %s turns.mkv) / 2)) turns.mkv >cut.mkv
+    check "cut off" exits 1 weft convert cut.mkv $box -o no.y4m
+    check "nothing is left" [ ! -e no.y4m ]
+fi
+
+# ---- What is refused ----
+
+y4m fields.y4m "W64 H32 F25:1 It A1:1 C444p10" 4 64
+check "interlaced" refuses "bwdif" convert fields.y4m $box -o no.y4m
+check "though wrongly tagged" exits 0 weft convert fields.y4m $box --input-scan progressive -o o4.y4m
+check "two" refuses "one file is taken at a time" convert turns.y4m fields.y4m $box -o no.y4m
+refuses_pipe() { exits 2 weft convert <(cat turns.y4m) $box "$@" -o no.y4m && says "${1#--}" && says "at its end only"; }
+check "a chunk of a pipe" refuses_pipe --chunk 1/2
+check "a dry run of a pipe" refuses_pipe --dry-run
+check "more than there are" exits 2 weft convert turns.y4m $box --frames 50-100 -o no.y4m
+check "which is said" says "0 to 99"
+check "its own input" exits 2 weft convert turns.y4m $box -o turns.y4m
+check "is not replaced" says "would replace an input"
+
+# ---- What is damaged ----
+
+head -c 100000 turns.y4m >cut.y4m
+check "a picture that is cut off" fails "within frame 8" weft convert cut.y4m $box -o no.y4m
+check "and when" says "0.080 s"
+check "a pipe that is cut off" fails "within frame 8" weft convert - $box -o no.y4m <cut.y4m
+check "and when" says "0.080 s"
+{ cat turns.y4m; echo FRAMF; cat turns.y4m; } >junk.y4m
+check "no FRAME" fails "frame 100" weft convert - $box -o no.y4m <junk.y4m
+check "an absurd rate" bash -c "sed '1s/F100:1/F1000000000:1/' turns.y4m >fast2.y4m"
+check "is refused" fails "cannot be" weft convert fast2.y4m $box -o no.y4m
+check "no rate" bash -c "sed '1s/F100:1/F0:0/' turns.y4m >none.y4m"
+check "is refused" exits 1 weft convert none.y4m $box -o no.y4m
+y4m one.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 1 64
+check "one picture" fails "do not fill one frame" weft convert one.y4m $box -o no.y4m
+check "one of a pipe" fails "do not fill one frame" weft convert - $box -o no.y4m <one.y4m
+check "nothing is left" [ ! -e no.y4m ]
+
+finish
