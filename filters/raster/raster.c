@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "filters/base/spelling.h"
+#include "filters/raster/raster_alias.h"
 
 /* The top picture line is field 1's when L1 < L2 - N/2; in whole numbers, twice that. */
 #define TOP_FIRST(l1, l2, n) (2 * (l1) < 2 * (l2) - (n))
@@ -106,7 +108,7 @@ static bool variant_at(size_t index, wf_raster *out) {
 static bool find_named(const char *text, wf_raster *out) {
     wf_raster raster;
     for (size_t i = 0; i < 2 * RASTERS; i++) {
-        if (!variant_at(i, &raster) || strcmp(raster.name, text)) continue;
+        if (!variant_at(i, &raster) || strcasecmp(raster.name, text)) continue;
         *out = raster;
         return true;
     }
@@ -117,11 +119,15 @@ static bool no_such_name(const char *text, char *why, size_t why_size) {
     wf_raster variants[2 * RASTERS];
     wf_spelling spelling = {.text = text};
     for (size_t i = 0; i < 2 * RASTERS; i++)
-        if (variant_at(i, &variants[i])) wf_spelling_offer(&spelling, variants[i].name);
-    const char *describe =
-        "'weft rasters' lists them, or describe one as WxH@RATE(i|p|psf), such "
-        "as 1920x1080@25i";
-    if (spelling.best)
+        if (variant_at(i, &variants[i]) && wf_raster_may_mean(text, variants[i].name))
+            wf_spelling_offer(&spelling, variants[i].name);
+    const char *advice = wf_raster_advice(text),
+               *describe =
+                   "'weft rasters' lists them, or describe one as WxH@RATE(i|p|psf), such "
+                   "as 1920x1080@25i";
+    if (advice)
+        snprintf(why, why_size, "no raster is called '%s'; %s", text, advice);
+    else if (spelling.best)
         snprintf(why, why_size, "no raster is called '%s'; did you mean %s? %s", text,
                  spelling.best, describe);
     else
@@ -233,7 +239,7 @@ static bool parse_description(const char *text, wf_raster *out, char *why, size_
 }
 
 bool wf_raster_parse(const char *text, wf_raster *out, char *why, size_t why_size) {
-    if (find_named(text, out)) return true;
+    if (find_named(wf_raster_own_name(text), out)) return true;
     if (strchr(text, '@')) return parse_description(text, out, why, why_size);
     return no_such_name(text, why, why_size);
 }

@@ -32,9 +32,10 @@ typedef struct wf_raster {
 /* The named rasters, by index; NULL past the end. Static storage. */
 const wf_raster *wf_raster_at(size_t index);
 
-/* A name of the table, a 525 or 625 name with "-wide", or
- * WxH@RATE(i|p|psf)[,tff|bff][,par=N:D][,601-525|601-625|709|2020].
- * False with a reason, and with a suggestion where a name is close, in why. */
+/* A name of the table, a 525 or 625 name with "-wide", another name of one of these
+ * (raster_alias.h: pal, 576i50, 1080i25 ..), or
+ * WxH@RATE(i|p|psf)[,tff|bff][,par=N:D][,601-525|601-625|709|2020]. False with a reason, and
+ * with a suggestion where a name is close, in why. */
 bool wf_raster_parse(const char *text, wf_raster *out, char *why, size_t why_size);
 
 /* "601-525", "601-625", "709" or "2020". Static storage. */

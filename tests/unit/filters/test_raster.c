@@ -2,6 +2,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
+#include "filters/raster/raster_alias.h"
 
 typedef struct row {
     const char *name;
@@ -222,6 +224,104 @@ static void descriptions(void **state) {
     }
 }
 
+/* ---- Other names ---- */
+
+/* What each other name means, typed here once more: lines, and fields or frames a second. */
+static void other_names_are_the_right_rasters(void **state) {
+    (void)state;
+    const struct {
+        const char *text, *name;
+        int lines;
+        double frames_a_second;
+    } cases[] = {
+        {"pal", "625i", 576, 25},
+        {"PAL", "625i", 576, 25},
+        {"576i", "625i", 576, 25},
+        {"576i50", "625i", 576, 25},
+        {"576i25", "625i", 576, 25},
+        {"576i/50", "625i", 576, 25},
+        {"ntsc", "525i", 486, 30000.0 / 1001},
+        {"486i", "525i", 486, 30000.0 / 1001},
+        {"1080i25", "1080i50", 1080, 25},
+        {"1080i/25", "1080i50", 1080, 25},
+        {"1080i29.97", "1080i59.94", 1080, 30000.0 / 1001},
+        {"1080i5994", "1080i59.94", 1080, 30000.0 / 1001},
+        {"1080i30", "1080i60", 1080, 30},
+        {"1080I50", "1080i50", 1080, 25},
+        {"720p5994", "720p59.94", 720, 60000.0 / 1001},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wf_raster r = parse(cases[i].text);
+        assert_string_equal(r.name, cases[i].name);
+        assert_int_equal(r.lines, cases[i].lines);
+        assert_float_equal(wf_ratio_value(r.frame_rate), cases[i].frames_a_second, 1e-9);
+    }
+}
+
+static void every_other_name_is_of_a_raster_and_of_none_itself(void **state) {
+    const wf_raster_other_name *other;
+    (void)state;
+    for (size_t i = 0; (other = wf_raster_alias_at(i)); i++) {
+        wf_raster r = parse(other->alias);
+        assert_string_equal(r.name, other->name);
+        bool interlaced = strstr(other->alias, "i") || !strpbrk(other->alias, "0123456789");
+        assert_int_equal(r.scan == WF_INTERLACED, interlaced);
+        for (size_t k = 0; wf_raster_at(k); k++)
+            assert_string_not_equal(wf_raster_at(k)->name, other->alias);
+    }
+}
+
+static bool suggested(const char *why, const char *name) {
+    const char *at = strstr(why, name);
+    return at && !isalnum((unsigned char)at[strlen(name)]) && at[strlen(name)] != '.';
+}
+
+/* Any size, scan and rate that is no raster: what is suggested has that scan and size. */
+static void nothing_of_another_scan_or_size_is_suggested(void **state) {
+    static const char *const lines_said[] = {"480", "486", "525",  "576",
+                                             "625", "720", "1080", "2160"};
+    static const char *const scans_said[] = {"i", "p", "psf"};
+    static const char *const rates_said[] = {"",   "23",   "24",  "25.5", "26",  "29",  "29.98",
+                                             "31", "48",   "49",  "50.1", "51",  "59",  "59.4",
+                                             "61", "5995", "100", "119",  "2.5", "499", "60.0"};
+    char text[32], why[512];
+    wf_raster r;
+    (void)state;
+    for (size_t n = 0; n < 8 * 3 * 21; n++) {
+        const char *size = lines_said[n / 63], *scan = scans_said[n / 21 % 3];
+        snprintf(text, sizeof text, "%s%s%s", size, scan, rates_said[n % 21]);
+        if (wf_raster_parse(text, &r, why, sizeof why)) continue;
+        const char *meant = strstr(why, "did you mean ");
+        if (!meant) continue;
+        for (size_t k = 0; wf_raster_at(k); k++) {
+            const wf_raster *raster = wf_raster_at(k);
+            if (!suggested(meant, raster->name)) continue;
+            if ((raster->scan == WF_INTERLACED) != !strcmp(scan, "i") ||
+                (raster->scan == WF_PROGRESSIVE) != !strcmp(scan, "p"))
+                fail_msg("%s: %s", text, why);
+            if (atoi(size) >= 720 && raster->lines != atoi(size)) fail_msg("%s: %s", text, why);
+        }
+    }
+}
+
+static void names_that_say_too_little_are_told_what_lacks(void **state) {
+    (void)state;
+    const struct {
+        const char *text, *says;
+    } cases[] = {
+        {"480i", "525i-dv"},      {"480i59.94", "525i-rp202"}, {"1080i", "1080i50"},
+        {"1080i24", "1080psf24"}, {"525i60", "59.94"},         {"hd", "1080i59.94"},
+        {"1080p", "1080p25"},     {"576p50", "720x576@50p"},   {"4K", "2160p50"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char why[512];
+        wf_raster r;
+        assert_false(wf_raster_parse(cases[i].text, &r, why, sizeof why));
+        if (!strstr(why, cases[i].says)) fail_msg("%s: %s", cases[i].text, why);
+        if (strstr(why, "did you mean")) fail_msg("%s: %s", cases[i].text, why);
+    }
+}
+
 static void refusals_say_what_is_right(void **state) {
     (void)state;
     const struct {
@@ -327,10 +427,18 @@ static void public_view(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_of_the_table),  cmocka_unit_test(nothing_else_is_listed),
-        cmocka_unit_test(line_maps),          cmocka_unit_test(windows_of_480_lines),
-        cmocka_unit_test(descriptions),       cmocka_unit_test(refusals_say_what_is_right),
-        cmocka_unit_test(fields_make_frames), cmocka_unit_test(field_periods),
+        cmocka_unit_test(rows_of_the_table),
+        cmocka_unit_test(nothing_else_is_listed),
+        cmocka_unit_test(line_maps),
+        cmocka_unit_test(windows_of_480_lines),
+        cmocka_unit_test(descriptions),
+        cmocka_unit_test(other_names_are_the_right_rasters),
+        cmocka_unit_test(every_other_name_is_of_a_raster_and_of_none_itself),
+        cmocka_unit_test(nothing_of_another_scan_or_size_is_suggested),
+        cmocka_unit_test(names_that_say_too_little_are_told_what_lacks),
+        cmocka_unit_test(refusals_say_what_is_right),
+        cmocka_unit_test(fields_make_frames),
+        cmocka_unit_test(field_periods),
         cmocka_unit_test(public_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
