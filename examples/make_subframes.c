@@ -8,7 +8,9 @@
  * 525-line video), 480000/1001 a second: eight subframes a field, 128 by default, after which
  * every motion repeats. Each subframe is exposed for the whole of its own 1/480 second, and
  * every edge is filtered in closed form over the pixel and that exposure, so that the pictures
- * are free of aliasing in space and of steps in time. */
+ * are free of aliasing in space and of steps in time. Patterns repeat at 7.5 Hz at most, so
+ * that at 50 fields a second, too, three field periods are less than half a repetition, and
+ * only the right order of fields looks right. */
 #include <OpenEXR/openexr.h>
 
 #include <errno.h>
@@ -76,7 +78,7 @@ static color background(point p) {
     return mix(top, bottom, p.y / HEIGHT);
 }
 
-/* Twelve spokes, every fourth one red, that turn by four of them in a repetition (75 rpm). */
+/* Twelve spokes, every other one red, that turn by two of them in a repetition (37.5 rpm). */
 static color wheel_spokes(float r, float angle, float motion, color under) {
     const color steel = {0.55f, 0.60f, 0.68f}, red = {0.75f, 0.045f, 0.030f};
     const float pitch = PI / 6.0f, nearest = roundf(angle / pitch);
@@ -84,7 +86,7 @@ static color wheel_spokes(float r, float angle, float motion, color under) {
     const float half = 13.0f - 0.022f * r;
     const float round_light =
         0.35f + 0.65f * sqrtf(clamp01(1.0f - across * across / (half * half)));
-    const color paint = (((int)nearest % 4) + 4) % 4 == 0 ? red : steel;
+    const color paint = (int)nearest % 2 == 0 ? red : steel;
     return mix(under, scaled(paint, round_light), band(across, half, motion));
 }
 
@@ -101,7 +103,7 @@ static color wheel(point p, color under) {
     const color gold = {0.90f, 0.52f, 0.13f}, rubber = {0.045f, 0.045f, 0.052f};
     const float x = p.x - 412.0f, y = p.y - 404.0f, r = length(x, y);
     if (r > 352.0f) return under;
-    const float turn = 2.0f * PI / 3.0f, angle = atan2f(y, x) - turn * p.phase;
+    const float turn = PI / 3.0f, angle = atan2f(y, x) - turn * p.phase;
     const float lit = r > 1.0f ? -(0.6f * x + 0.8f * y) / r : 0.0f;
     color c = under;
     if (r < 318.0f) c = wheel_spokes(r, angle, r * turn / PERIOD, c);
@@ -112,14 +114,14 @@ static color wheel(point p, color under) {
 }
 
 /* Rings whose spatial frequency grows to half a cycle a line of 486-line video, running outward
- * four rings a repetition. */
+ * two rings a repetition. */
 static color zone_plate(point p, color under) {
     const float radius = 222.0f, k = 0.25f * PI / radius;
     const float x = p.x - 1016.0f, y = p.y - 290.0f, r = length(x, y);
     if (r > radius + 1.0f) return under;
     const float seen = box_response(k * x / PI * PIXEL_ASPECT) * box_response(k * y / PI) *
-                       box_response(4.0f / PERIOD);
-    const float wave = cosf(k * r * r - 2.0f * PI * 4.0f * p.phase);
+                       box_response(2.0f / PERIOD);
+    const float wave = cosf(k * r * r - 2.0f * PI * 2.0f * p.phase);
     const float level = 0.42f + 0.40f * seen * wave;
     return mix(under, (color){level, level, level}, edge(radius - r, 0.0f));
 }

@@ -93,22 +93,17 @@ mount --bind etc /etc && mount --bind local /usr/local
 [ ! -d /var/cache/ldconfig ] || mount --bind aux /var/cache/ldconfig
 cmake --install "$WEFT_BUILD" --prefix /usr/local >/dev/null
 cd readme
+eval "$(grep '^    weft .* out/' "$WEFT_SOURCE/README.md" | sed 's/$/ || exit 1/')"
 sed -n '/^```c$/,/^```$/p' "$WEFT_SOURCE/README.md" | sed '/^```/d' >shot.c
 eval "$(grep '^ *cc shot.c ' "$WEFT_SOURCE/README.md")"
 ./a.out
-rm shot.y4m
-{
-    echo "import numpy; y, x = numpy.indices((486, 720)).reshape(2, -1) + .5" # a sample a pixel
-    echo "t, rgb = 0 * x, numpy.full((720 * 486, 3), .5)"
-    sed -n '/^```python$/,/^```$/p' "$WEFT_SOURCE/README.md" | sed '/^```/d'
-} >shot.py
+sed -n '/^```python$/,/^```$/p' "$WEFT_SOURCE/README.md" | sed '/^```/d' >shot.py
 PATH=/usr/bin:/bin python3 shot.py
 PATH=/usr/bin:/bin python3 -c 'import weft; print(weft.library_path)'
 man -w weft 2>/dev/null || ls /usr/local/share/man/man1/weft.1
 END
-subframes in 16
-mkdir readme
-for ((k = 0; k < 16; k++)); do cp in/subframe.$(printf %04d "$k").exr readme/shot.$(printf %04d "$k").exr; done
+# Of what the quick start makes as much as the order of fields can be seen in.
+subframes readme/out/subframes 64
 namespace=(unshare --mount)
 [ "$(id -u)" = 0 ] || namespace+=(--user --map-root-user)
 case $(command -v cmake cc pkg-config) in */usr/local/*) namespace=(false) ;; esac
@@ -116,10 +111,12 @@ if ! "${namespace[@]}" bash -c 'mkdir -p try && mount --bind try /usr/local' 2>/
     skip_part "README.md under /usr/local: mount namespaces cannot be made, or the compiler lies there"
 elif ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
     skip_part "README.md under /usr/local: no python3-numpy"
+elif ! has_libav; then
+    skip_part "README.md under /usr/local: weft was built without libav"
 else
     check "the lines of README.md run" exits 0 "${namespace[@]}" env -u PKG_CONFIG_PATH -u LD_LIBRARY_PATH \
         -u PYTHONPATH -u WEFT_LIBRARY bash private.sh
-    check "and made the video" test -s readme/shot.y4m
+    for video in shot.y4m shot.mxf shot_625i.y4m; do check "and made $video" test -s readme/out/$video; done
     check "Python has the library that was installed" prints /usr/local/lib
 fi
 

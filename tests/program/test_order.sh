@@ -33,6 +33,13 @@ for raster in $rasters; do
     order=${raster##*:}
     check "${raster%:*}" both_say a.y4m "$order" "$(echo "$order" | tr a-z A-Z)"
 done
+# The subframes as the quick start converts them: at their own rate, through the default aperture.
+right_order() { exits 0 weft verify own.y4m --raster "$1" --json && value '{"order": "right"}.items() <=
+    {c["check"]: c["verdict"] for c in d[0]["checks"]}.items()'; }
+for raster in 525i 625i 1080i50 1080i59.94; do
+    "$WEFT" convert in --raster $raster -q -o own.y4m --overwrite
+    check "the quick start's subframes in $raster" right_order $raster
+done
 psf=960x540@25psf
 is_long && psf=1920x1080@25psf
 clip psf.y4m 400 $psf
@@ -56,7 +63,7 @@ check "and is one" verdict dither.y4m still
 # weave NAME FILTER: the top first video, fields put together in another way.
 weave() { quiet_ffmpeg -i tff.y4m -vf "$2" -strict -1 "$1.y4m"; }
 if [ -n "$have_ffmpeg" ]; then
-    weave swapped "il=l=i:c=i,separatefields,weave=first_field=bottom"
+    weave swapped "separatefields,weave=first_field=bottom"
     weave lines "il=ls=1:cs=1"
     weave late "separatefields,trim=start_frame=1,weave=first_field=top"
     weave early "separatefields,shuffleframes=1 0,weave=first_field=top"
