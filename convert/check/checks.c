@@ -80,7 +80,8 @@ static const struct check {
 };
 /* clang-format on */
 
-_Static_assert(sizeof checks / sizeof *checks <= WF_FINDINGS_MOST, "a finding for each check");
+_Static_assert(sizeof checks / sizeof *checks <= WF_FINDINGS_MOST,
+               "each check has a finding: raise WF_FINDINGS_MOST (checks.h)");
 
 /* What the file has, in the bits of a check's `applies`. */
 static unsigned nature_of(const wf_subject *s) {

@@ -5,8 +5,8 @@
 
 #include "convert/check/subject.h"
 
-/* The most checks that there may be. */
-#define WF_FINDINGS_MOST 32
+/* Findings that a verification has capacity for: at least the rows of `checks` (checks.c). */
+#define WF_FINDINGS_MOST 64
 
 /* Puts the file to every check that applies to it and that its profile asks for. Returns how
  * many findings there are in finding. */

@@ -80,8 +80,8 @@ void wf_cmd_help(const wf_cmd *cmd);
 /* Prints what wf_json_finish returned, and frees it. */
 weft_status wf_cmd_print_json(char *text, weft_error *err);
 
-/* Has an entry point of the plot module (convert/plot.h) draw into a PNG file, which replaces
- * one that is there. */
+/* Has an entry point of the plot module (convert/plot/plot.h) draw into a PNG file, which
+ * replaces one that is there. */
 weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
                         weft_error *err);
 

@@ -135,7 +135,8 @@ wf_rational first_rate(const ImageSpec &spec, std::initializer_list<const char *
     return {0, 0};
 }
 
-// The BCD word of ST 12-1 (convert/timecode.h) as text; digits out of range are no timecode.
+// The BCD word of ST 12-1 (convert/job/timecode.h) as text; digits out of range are no
+// timecode.
 void read_timecode(const ImageSpec &spec, wf_image_info *info) {
     const ParamValue *p = spec.find_attribute("smpte:TimeCode");
     if (!p || p->type().size() < sizeof(uint32_t)) return;

@@ -17,7 +17,7 @@ typedef struct exr_part {
     int tile_width, tile_height; /* 0: scanlines */
     const char *rate, *time;     /* "480000/1001": framesPerSecond and weft:time; NULL: none */
     const char *subframe_rate;   /* weft:subframeRate, as text; NULL: none */
-    uint32_t timecode;           /* timeCode, as convert/timecode.h packs it; 0: none */
+    uint32_t timecode;           /* timeCode, as convert/job/timecode.h packs it; 0: none */
     float pixel_aspect;          /* 0: 1 */
     const char *attribute[2];    /* name and value of a text; NULL: none */
     const float *chromaticities; /* x, y of red, green, blue, white; NULL: none */

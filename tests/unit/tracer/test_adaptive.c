@@ -10,6 +10,7 @@
 
 #include "tests/unit/support/scene_fields.h"
 #include "tests/unit/support/sizes.h"
+#include "tracer/sample/adaptive_cells.h"
 
 #define WIDTH  64
 #define LINES  48
@@ -150,8 +151,44 @@ static void thin_things(void **state) {
         }
 }
 
+/* The integral of the aperture's square over the square of its integral, both over pixels and
+ * lines, of means over the window. */
+static double share_of(const wf_aperture *a) {
+    enum { STEPS = 64, TIMES = 32 };
+    double sum = 0, square = 0, cell = 1.0 / (STEPS * STEPS);
+    for (int i = 0; i < 2 * ceil(a->reach_u) * STEPS; i++)
+        for (int j = 0; j < 2 * a->reach_v * STEPS; j++) {
+            double u = (i + 0.5) / STEPS - ceil(a->reach_u), h = 0;
+            for (int k = 0; k < TIMES; k++)
+                h += wf_aperture_value(a, 1, u, (j + 0.5) / STEPS - a->reach_v,
+                                       (k + 0.5) / TIMES - 0.5) /
+                     TIMES;
+            sum += h * cell;
+            square += h * h * cell;
+        }
+    return square / (sum * sum);
+}
+
+/* Without a share of its own an aperture would have no error, and nothing would be refined. */
+static void every_aperture_has_its_share(void **state) {
+    (void)state;
+    const wf_aperture_kind *kind;
+    for (size_t n = 0; (kind = wf_aperture_at(n)); n++) {
+        char name[64], why[256];
+        wf_sampling s = {0};
+        snprintf(name, sizeof name, "%s%s%s", kind->name, kind->follows ? ":" : "",
+                 kind->follows ? kind->example : "");
+        assert_true(wf_aperture_parse(name, &s.desc.gather.aperture, why, sizeof why));
+        double share = wf_adaptive_share(&(wf_adaptive){.s = &s});
+        double least = share_of(&s.desc.gather.aperture);
+        if (!(share >= 0.99 * least && share <= 1.5 * least + 0.1))
+            fail_msg("%s: share %g, integral %g", name, share, least);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(edges_are_found),
-                                       cmocka_unit_test(thin_things)};
+                                       cmocka_unit_test(thin_things),
+                                       cmocka_unit_test(every_aperture_has_its_share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
