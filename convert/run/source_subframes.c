@@ -52,6 +52,12 @@ static weft_status look_at_first(wf_run *run, const wf_subframe_ref *ref, weft_e
     if (status) return status;
     s->first = wf_first_subframe_of(subframe);
     wf_subframe_take(subframe, &run->report->taken);
+    if (*s->first.pick.also)
+        wf_job_warn(run->job,
+                    "%s: the picture is '%s'; '%s' is named as the beauty too, and --layer or "
+                    "--part takes it",
+                    ref->path, *s->first.pick.layer ? s->first.pick.layer : s->first.part_name,
+                    s->first.pick.also);
     wf_subframe_close(subframe);
     return WEFT_OK;
 }

@@ -53,6 +53,10 @@ check "both are listed" says "--layer; it has diffuse (R G B), glow (R G B)"
 check "Cryptomatte is no picture" exits 1 weft convert crypto.exr "${raster[@]}" -o no.exr
 check "nothing was written" test ! -e no.exr
 
+picture named.exr rgba.R,rgba.G,rgba.B,beauty.R,beauty.G,beauty.B .5,.25,.1,.1,.1,.2
+check "two beauties" exits 0 weft convert named.exr "${raster[@]}" -o out.####.exr
+check "the other one is told" says "'beauty' is named as the beauty too"
+
 # ---- Parts ----
 
 part() { oiiotool "$1" --attrib oiio:subimagename "$2" -o "$2.part.exr"; }
@@ -105,6 +109,19 @@ check "by the file" value "d['files'][0]['input']['alpha'] == {'value': 'premult
 check "TIFF is as it is stored" gives "$stored" assoc.tif
 check "TIFF says that it is straight" exits 0 weft info --json straight.tif
 check "by the file too" value "d['files'][0]['input']['alpha'] == {'value': 'straight', 'reason': 'file'}"
+# An extra sample of no stated meaning (ExtraSamples 0) is no alpha.
+python3 - <<'PATCH'
+import struct
+data = bytearray(open('assoc.tif', 'rb').read())
+order = '<' if data[:2] == b'II' else '>'
+at = struct.unpack(order + 'I', data[4:8])[0]
+for entry in range(at + 2, at + 2 + 12 * struct.unpack(order + 'H', data[at:at + 2])[0], 12):
+    if struct.unpack(order + 'H', data[entry:entry + 2])[0] == 338:
+        data[entry + 8:entry + 10] = b'\0\0'
+open('other.tif', 'wb').write(data)
+PATCH
+check "TIFF with another fourth channel" exits 0 weft info --json other.tif
+check "has no alpha" value "d['files'][0]['input']['alpha'] == {'value': 'none', 'reason': 'file'}"
 oiiotool half.exr -d uint16 -o half.png
 check "PNG is straight" exits 0 weft info --json half.png
 check "as its format is" value "d['files'][0]['input']['alpha'] == {'value': 'straight', 'reason': 'default'}"

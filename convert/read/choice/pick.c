@@ -73,23 +73,40 @@ static int count_candidates(const choice *c, wf_picture_kind kind, bool bare, si
     return count;
 }
 
-/* Of several, the one named as the beauty: 1; 0 if none is, more if it cannot be told. */
+/* Of several, the one named as the beauty: 1; 0 if none is, more if it cannot be told. *also is
+ * one with a less likely name, NULL if there is none. */
 static int count_beauties(const choice *c, wf_picture_kind kind, bool bare,
-                          const wf_layer **found) {
+                          const wf_layer **found, const wf_layer **also) {
     int count = 0;
-    for (size_t b = 0; !count && b < WF_BEAUTIES; b++)
-        count = count_candidates(c, kind, bare, b, found);
+    *also = NULL;
+    for (size_t b = 0; !*also && b < WF_BEAUTIES; b++) {
+        if (count)
+            count_candidates(c, kind, bare, b, also);
+        else
+            count = count_candidates(c, kind, bare, b, found);
+    }
     return count;
+}
+
+static void take_beauty(const choice *c, const wf_layer *l, wf_picture_kind kind,
+                        const wf_layer *also) {
+    take(c, l, kind, WF_REASON_FILE);
+    if (!also) return;
+    bool bare = !also->length;
+    snprintf(c->out->also, sizeof c->out->also, "%.*s",
+             bare ? (int)strlen(also->part->name) : (int)also->length,
+             bare ? also->part->name : also->name);
 }
 
 typedef enum answer { NONE, TAKEN, REFUSED } answer;
 
 static answer choose_bare(const choice *c, wf_picture_kind kind) {
-    const wf_layer *l = NULL;
+    const wf_layer *l = NULL, *also;
     int count = count_candidates(c, kind, true, WF_BEAUTIES, &l);
     if (!count) return NONE;
     if (count == 1) return take(c, l, kind, WF_REASON_DEFAULT), TAKEN;
-    if (count_beauties(c, kind, true, &l) == 1) return take(c, l, kind, WF_REASON_FILE), TAKEN;
+    if (count_beauties(c, kind, true, &l, &also) == 1)
+        return take_beauty(c, l, kind, also), TAKEN;
     refuse(c,
            "%d parts hold a picture and no one of them is named as the beauty; choose one "
            "with --part",
@@ -98,9 +115,9 @@ static answer choose_bare(const choice *c, wf_picture_kind kind) {
 }
 
 static answer choose_layer(const choice *c, wf_picture_kind kind) {
-    const wf_layer *l = NULL;
-    int named = count_beauties(c, kind, false, &l);
-    if (named == 1) return take(c, l, kind, WF_REASON_FILE), TAKEN;
+    const wf_layer *l = NULL, *also;
+    int named = count_beauties(c, kind, false, &l, &also);
+    if (named == 1) return take_beauty(c, l, kind, also), TAKEN;
     int count = count_candidates(c, kind, false, WF_BEAUTIES, &l);
     if (!count) return NONE;
     if (count == 1) return take(c, l, kind, WF_REASON_FILE), TAKEN;

@@ -25,6 +25,7 @@ typedef struct wf_pick {
     wf_picture_kind kind;
     char layer[WF_LAYER_SIZE]; /* prefix of its channels; "": they have none */
     wf_reason layer_reason, part_reason;
+    char also[WF_LAYER_SIZE]; /* another layer or part named as the beauty; "": none */
 } wf_pick;
 
 /* Chooses the picture among all parts: what is wished for; else for R G B, then Y, then

@@ -200,6 +200,27 @@ static void what_is_asked_for(void **state) {
     EXPECT_ALL(rows);
 }
 
+/* A guess that may be wrong is told as one. */
+static void another_beauty(void **state) {
+    (void)state;
+    static const struct {
+        const char *file, *also;
+    } rows[] = {{":beauty.B beauty.G beauty.R rgba.B rgba.G rgba.R", "beauty"},
+                {":C.B C.G C.R x.Combined.B x.Combined.G x.Combined.R", "x.Combined"},
+                {"beauty:B G R|rgba:B G R", "beauty"},
+                {":rgba.B rgba.G rgba.R d.B d.G d.R", ""},
+                {":B G R", ""}};
+    const wf_wish wish = {.only_part = -1};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        file f;
+        wf_pick pick;
+        char why[900];
+        make(&f, rows[i].file);
+        assert_true(wf_pick_picture(f.part, f.parts, &wish, &pick, why, sizeof why));
+        assert_string_equal(pick.also, rows[i].also);
+    }
+}
+
 /* However many layers there are: the message ends with how many are not in it. */
 static void long_lists_are_counted(void **state) {
     (void)state;
@@ -219,9 +240,9 @@ static void long_lists_are_counted(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_prefix),       cmocka_unit_test(by_name),
-        cmocka_unit_test(gray_and_chroma),        cmocka_unit_test(what_is_asked_for),
-        cmocka_unit_test(long_lists_are_counted),
+        cmocka_unit_test(without_a_prefix), cmocka_unit_test(by_name),
+        cmocka_unit_test(gray_and_chroma),  cmocka_unit_test(what_is_asked_for),
+        cmocka_unit_test(another_beauty),   cmocka_unit_test(long_lists_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
