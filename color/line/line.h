@@ -32,6 +32,7 @@ typedef struct wf_line_ops {
     /* In place, planes of count samples; NaN counts as 0. */
     void (*mix)(const wf_mix *mix, float *r, float *g, float *b, size_t count);
     void (*curve[WF_CURVE_KINDS])(const wf_curve *curve, float *light, size_t count);
+    void (*decode[WF_CURVE_KINDS])(const wf_curve *curve, float *signal, size_t count);
     void (*ycbcr)(const wf_ycbcr *weights, float *r_to_y, float *g_to_cb, float *b_to_cr,
                   size_t count);
     /* even[i] = line[2 i], odd[i] = line[2 i + 1] */

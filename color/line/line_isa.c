@@ -60,20 +60,52 @@ static inline float power(float x, float p_high, float p_low) {
     return power_ratio(e, f / (2 + f), p_high, p_low);
 }
 
+/* ---- Powers in double ---- */
+
+/* 2^(p log2(x) + q), x positive and normal, to 1e-9 of itself: for PQ, whose sixth power of a
+ * quotient of differences makes much of little, and for HLG. The exponent of 2 that comes out
+ * has to be from -126 to 127. */
+static inline double power_wide(float x, double p, double q) {
+    const float shift = 12582912; /* 1.5 * 2^23: adding it rounds to a whole number */
+    float e, f = split(x, &e);
+    double s = (double)f / (2 + (double)f), z = s * s;
+    double high = 0.41219858311113238 + z * (0.32059889797532520 + z * 0.26230818925253880);
+    double ratio = 0.96179669392597556 + z * (0.57707801635558536 + z * high);
+    double y = p * ((double)e + s * (2.8853900817779268 + z * ratio)) + q;
+    float shifted = (float)y + shift;
+    double r = (y - (double)(shifted - shift)) * 0.69314718055994531;
+    double end = 1.0 / 120 + r * (1.0 / 720 + r * (1.0 / 5040 + r * (1.0 / 40320)));
+    double tail = r * r * (0.5 + r * (1.0 / 6 + r * (1.0 / 24 + r * end)));
+    return (1 + (r + tail)) * (double)float_of((bits_of(shifted) << 23) + 0x3f800000);
+}
+
 /* ---- Curves ---- */
 
-/* The comparisons are false for NaN. */
-static inline float light_of(float x) {
-    x = x > 0 ? x : 0;
-    return x < WF_MOST_LIGHT ? x : WF_MOST_LIGHT;
+static inline float within(float x, float most) {
+    x = x == x ? x : 0;
+    x = x > -most ? x : -most;
+    return x < most ? x : most;
+}
+
+static inline float signed_as(float magnitude, float x) {
+    return x < 0 ? -magnitude : magnitude;
 }
 
 static void power_curve(const wf_curve *curve, float *restrict light, size_t count) {
     const wf_curve c = *curve;
     for (size_t i = 0; i < count; i++) {
-        float x = light_of(light[i]);
+        float given = within(light[i], WF_MOST_LIGHT), x = fabsf(given);
         float signal = c.gain * power(x, c.power_high, c.power_low) - c.offset;
-        light[i] = x < c.toe_end ? c.toe_slope * x : signal;
+        light[i] = signed_as(x < c.toe_end ? c.toe_slope * x : signal, given);
+    }
+}
+
+static void power_decode(const wf_curve *curve, float *restrict signal, size_t count) {
+    const wf_curve c = *curve;
+    for (size_t i = 0; i < count; i++) {
+        float given = within(signal[i], WF_MOST_SIGNAL), v = fabsf(given);
+        float light = power((v + c.offset) / c.gain, c.inverse_high, c.inverse_low);
+        signal[i] = signed_as(v < c.toe_signal ? c.toe_light * v : light, given);
     }
 }
 
@@ -83,11 +115,32 @@ static void pq_curve(const wf_curve *curve, float *restrict light, size_t count)
     const wf_curve c = *curve;
     const float c3 = 18.6875f, c3_less_c2 = -0.1640625f, m2 = 78.84375f;
     for (size_t i = 0; i < count; i++) {
-        float x = c.scale * light_of(light[i]);
+        float given = within(light[i], WF_MOST_LIGHT), x = c.scale * fabsf(given);
         float t = power(x, c.power_high, c.power_low);
         t = x < FLT_MIN ? 0 : t;
         float less = c3_less_c2 * (1 - t);
-        light[i] = power_ratio(0, less / (2 * (1 + c3 * t) + less), m2, 0);
+        float signal = power_ratio(0, less / (2 * (1 + c3 * t) + less), m2, 0);
+        float line = WF_PQ_LINE_SIGNAL + (x - WF_PQ_LINE_LIGHT) * (1 / WF_PQ_LINE_SLOPE);
+        light[i] = signed_as(x > WF_PQ_LINE_LIGHT ? line : signal, given);
+    }
+}
+
+/* Signals below this are black: their light is 1e-19 and less. */
+#define PQ_BLACK 1e-6f
+
+/* (max(t - c1, 0) / (c2 - c3 t))^(1 / m1), t = v^(1 / m2). */
+static void pq_decode(const wf_curve *curve, float *restrict signal, size_t count) {
+    const double scale = 1 / (double)curve->scale;
+    const double c1 = 0.8359375, c2 = 18.8515625, c3 = 18.6875;
+    for (size_t i = 0; i < count; i++) {
+        float given = within(signal[i], WF_MOST_SIGNAL), v = fabsf(given);
+        float bent = v < WF_PQ_LINE_SIGNAL ? v : WF_PQ_LINE_SIGNAL;
+        double t = power_wide(bent < PQ_BLACK ? PQ_BLACK : bent, 1 / 78.84375, 0);
+        float ratio = (float)((t - c1) / (c2 - c3 * t));
+        double light = power_wide(ratio, 16384.0 / 2610, 0);
+        light = v < PQ_BLACK ? 0 : light;
+        double line = (double)WF_PQ_LINE_SLOPE * ((double)v - (double)bent);
+        signal[i] = signed_as((float)(scale * (light + line)), given);
     }
 }
 
@@ -95,21 +148,28 @@ static void hlg_curve(const wf_curve *curve, float *restrict light, size_t count
     const wf_curve c = *curve;
     const float a = 0.17883277f, b = 0.28466892f, c_offset = 0.55991073f, ln2 = 0.693147181f;
     for (size_t i = 0; i < count; i++) {
-        float x = c.scale * light_of(light[i]), e;
+        float given = within(light[i], WF_MOST_LIGHT), x = c.scale * fabsf(given), e;
         float above = x > 1.0f / 12 ? 12 * x - b : 1; /* 1 where the root is taken */
         float f = split(above, &e);
         float log = a * ln2 * (e + log2_ratio(f / (2 + f))) + c_offset;
-        light[i] = x > 1.0f / 12 ? log : sqrtf(3 * x);
+        light[i] = signed_as(x > 1.0f / 12 ? log : sqrtf(3 * x), given);
+    }
+}
+
+/* v^2 / 3, above 1/2 (e^((v - c) / a) + b) / 12; the light of 2.75 is 65504 and more. */
+static void hlg_decode(const wf_curve *curve, float *restrict signal, size_t count) {
+    const double scale = 1 / (double)curve->scale, per_octave = 1 / (0.17883277 * M_LN2);
+    const double b = 0.28466892, c_offset = 0.55991073;
+    for (size_t i = 0; i < count; i++) {
+        float given = within(signal[i], 2.75f);
+        double v = fabs((double)given);
+        double power = power_wide(1, 0, (v - c_offset) * per_octave);
+        double light = v > 0.5 ? (power + b) / 12 : v * v / 3;
+        signal[i] = signed_as((float)(scale * light), given);
     }
 }
 
 /* ---- Matrices ---- */
-
-static inline float within(float x, float most) {
-    x = x == x ? x : 0;
-    x = x > -most ? x : -most;
-    return x < most ? x : most;
-}
 
 /* In double: out of gamut, the sums come near 0, where the curves that follow are steepest. */
 static void mix(const wf_mix *m, float *restrict r, float *restrict g, float *restrict b,
@@ -180,6 +240,9 @@ const wf_line_ops WF_ISA_TABLE(wf_line_ops) = {
     .mix = mix,
     .curve =
         {[WF_CURVE_POWER] = power_curve, [WF_CURVE_PQ] = pq_curve, [WF_CURVE_HLG] = hlg_curve},
+    .decode = {[WF_CURVE_POWER] = power_decode,
+               [WF_CURVE_PQ] = pq_decode,
+               [WF_CURVE_HLG] = hlg_decode},
     .ycbcr = ycbcr,
     .deinterleave = deinterleave,
     .half_band = half_band,

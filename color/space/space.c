@@ -1,6 +1,7 @@
 /* The tables of primaries and spaces, and the matrices between primaries. */
 #include "color/space/space.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -52,6 +53,52 @@ const wf_chromaticities wf_chromaticities_of[WF_PRIMARIES_COUNT] = {
                           {0.128, 0.044},
                           ACES_WHITE},
 };
+
+static const struct {
+    int code_point;
+    wf_chromaticities primaries;
+} coded[] = {
+    {4,
+     {"BT.470 M",
+      "Rec. ITU-R BT.470-6 system M",
+      {0.67, 0.33},
+      {0.21, 0.71},
+      {0.14, 0.08},
+      {0.310, 0.316}}},
+    {8,
+     {"film",
+      "Rec. ITU-T H.273: generic film, illuminant C",
+      {0.681, 0.319},
+      {0.243, 0.692},
+      {0.145, 0.049},
+      {0.310, 0.316}}},
+    {10, {"CIE XYZ", "SMPTE ST 428-1", {1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}}},
+    {11,
+     {"DCI-P3",
+      "SMPTE RP 431-2",
+      {0.680, 0.320},
+      {0.265, 0.690},
+      {0.150, 0.060},
+      {0.314, 0.351}}},
+    {22,
+     {"H.273 22",
+      "Rec. ITU-T H.273: no corresponding industry specification",
+      {0.630, 0.340},
+      {0.295, 0.605},
+      {0.155, 0.077},
+      D65}},
+};
+
+const wf_chromaticities *wf_chromaticities_of_code_point(int code_point) {
+    static const int known[][2] = {{1, WF_PRIMARIES_709},     {5, WF_PRIMARIES_EBU},
+                                   {6, WF_PRIMARIES_SMPTE_C}, {7, WF_PRIMARIES_SMPTE_C},
+                                   {9, WF_PRIMARIES_2020},    {12, WF_PRIMARIES_P3}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (known[i][0] == code_point) return &wf_chromaticities_of[known[i][1]];
+    for (size_t i = 0; i < sizeof coded / sizeof *coded; i++)
+        if (coded[i].code_point == code_point) return &coded[i].primaries;
+    return NULL;
+}
 
 /* ---- Matrices ---- */
 
@@ -111,8 +158,7 @@ static void adapt(const double from[2], const double to[2], double out[3][3]) {
     multiply(inverse, scaled, out);
 }
 
-void wf_rgb_to_xyz(wf_primaries primaries, double matrix[3][3]) {
-    const wf_chromaticities *c = &wf_chromaticities_of[primaries];
+static void to_xyz(const wf_chromaticities *c, double matrix[3][3]) {
     static const double d65[2] = D65;
     primaries_matrix(c, matrix);
     if (c->white[0] == d65[0] && c->white[1] == d65[1]) return;
@@ -122,12 +168,50 @@ void wf_rgb_to_xyz(wf_primaries primaries, double matrix[3][3]) {
     multiply(to_d65, own, matrix);
 }
 
-void wf_rgb_to_rgb(wf_primaries from, wf_primaries to, double matrix[3][3]) {
+void wf_rgb_to_xyz(wf_primaries primaries, double matrix[3][3]) {
+    to_xyz(&wf_chromaticities_of[primaries], matrix);
+}
+
+void wf_rgb_matrix(const wf_chromaticities *from, const wf_chromaticities *to,
+                   double matrix[3][3]) {
     double in[3][3], out[3][3], inverse[3][3];
-    wf_rgb_to_xyz(from, in);
-    wf_rgb_to_xyz(to, out);
+    to_xyz(from, in);
+    to_xyz(to, out);
     invert(out, inverse);
     multiply(inverse, in, matrix);
+}
+
+void wf_rgb_to_rgb(wf_primaries from, wf_primaries to, double matrix[3][3]) {
+    wf_rgb_matrix(&wf_chromaticities_of[from], &wf_chromaticities_of[to], matrix);
+}
+
+bool wf_chromaticities_usable(const wf_chromaticities *c) {
+    const double *xy[4] = {c->red, c->green, c->blue, c->white};
+    for (int i = 0; i < 8; i++)
+        if (!(fabs(xy[i / 2][i % 2]) < 100)) return false;
+    double area = (c->green[0] - c->red[0]) * (c->blue[1] - c->red[1]) -
+                  (c->blue[0] - c->red[0]) * (c->green[1] - c->red[1]);
+    if (!(fabs(area) > 1e-4) || !(c->white[1] > 1e-3)) return false;
+    double m[3][3];
+    to_xyz(c, m);
+    double largest = 0;
+    for (int i = 0; i < 9; i++) largest = fmax(largest, fabs(m[i / 3][i % 3]));
+    return isfinite(largest) && largest < 1e3 && m[1][0] != 0 && m[1][1] != 0;
+}
+
+static bool alike(const double a[2], const double b[2]) {
+    return fabs(a[0] - b[0]) < 2e-4 && fabs(a[1] - b[1]) < 2e-4;
+}
+
+wf_primaries wf_primaries_like(const wf_chromaticities *c) {
+    int i = 0;
+    for (; i < WF_PRIMARIES_COUNT; i++) {
+        const wf_chromaticities *k = &wf_chromaticities_of[i];
+        if (alike(c->red, k->red) && alike(c->green, k->green) && alike(c->blue, k->blue) &&
+            alike(c->white, k->white))
+            break;
+    }
+    return (wf_primaries)i;
 }
 
 /* ---- Spaces ---- */
@@ -150,9 +234,16 @@ static const wf_space spaces[] = {
     {"rec2020-camera", NULL, WF_PRIMARIES_2020, &wf_curve_bt2020},
     {"rec2100-pq", NULL, WF_PRIMARIES_2020, &wf_curve_pq},
     {"rec2100-hlg", NULL, WF_PRIMARIES_2020, &wf_curve_hlg},
+    {"sRGB", "sRGB - Texture", WF_PRIMARIES_709, &wf_curve_srgb},
 };
 
 enum { SPACES = sizeof spaces / sizeof *spaces };
+
+const wf_space *wf_space_linear(wf_primaries primaries) {
+    for (size_t i = 0; i < SPACES; i++)
+        if (!spaces[i].curve && spaces[i].primaries == primaries) return &spaces[i];
+    return NULL;
+}
 
 const wf_space *wf_space_at(size_t index) {
     return index < SPACES ? &spaces[index] : NULL;

@@ -1,14 +1,18 @@
 // OpenColorIO as a wf_transform. No exception gets out of here.
 #include "color/space/ocio/ocio.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <strings.h>
+#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 
@@ -87,6 +91,175 @@ void check_looks(const Config &config, const std::string &looks) {
     }
 }
 
+// ---- What is made of itself ----
+
+// Walks through what a conversion is made of before OpenColorIO does, which does not return
+// from a space that needs itself.
+class Walk {
+  public:
+    explicit Walk(const Config &config) : config_(config) {}
+
+    // Out of a space to the reference, or into it from there.
+    void space(const char *name, bool out) {
+        OCIO::ConstColorSpaceRcPtr space = config_->getColorSpace(name);
+        if (!space) return named(name);
+        if (!enter(std::string("color space \"") + space->getName() + '"', out)) return;
+        const auto to = OCIO::COLORSPACE_DIR_TO_REFERENCE,
+                   from = OCIO::COLORSPACE_DIR_FROM_REFERENCE;
+        OCIO::ConstTransformRcPtr own = space->getTransform(out ? to : from);
+        if (own)
+            transform(own, false);
+        else
+            transform(space->getTransform(out ? from : to), true);
+        if (space->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_DISPLAY)
+            view_transform(config_->getDefaultViewTransformName());
+        leave();
+    }
+
+    void looks(const std::string &list) {
+        for (size_t start = 0, end; start < list.size(); start = end + 1) {
+            end = std::min(list.find_first_of(",:|", start), list.size());
+            size_t first = list.find_first_not_of(" +-", start),
+                   last = list.find_last_not_of(' ', end - 1);
+            if (first < end) look(list.substr(first, last + 1 - first));
+        }
+    }
+
+    void view(const char *display, const char *name) {
+        const char *space = config_->getDisplayViewColorSpaceName(display, name);
+        if (space && !std::strcmp(space, "<USE_DISPLAY_NAME>")) space = display;
+        if (given(space)) this->space(space, false);
+        view_transform(config_->getDisplayViewTransformName(display, name));
+        const char *list = config_->getDisplayViewLooks(display, name);
+        if (given(list)) looks(list);
+    }
+
+  private:
+    static constexpr size_t deepest = 100;
+
+    bool enter(const std::string &what, bool out) {
+        const std::string key = what + (out ? " out" : " in");
+        if (std::find(path_.begin(), path_.end(), key) != path_.end())
+            throw std::runtime_error("the " + what + " is made of itself (" + way() + ")");
+        if (path_.size() == deepest)
+            throw std::runtime_error("the " + what + " is made of too many others");
+        if (!seen_.insert(key).second) return false;
+        path_.push_back(key);
+        return true;
+    }
+    void leave() { path_.pop_back(); }
+
+    std::string way() const {
+        std::string text;
+        for (const std::string &key : path_)
+            text += (text.empty() ? "" : ", ") + key.substr(0, key.rfind(' '));
+        return text;
+    }
+
+    void transform(const OCIO::ConstTransformRcPtr &t, bool inverse) {
+        if (!t) return;
+        inverse ^= t->getDirection() == OCIO::TRANSFORM_DIR_INVERSE;
+        if (auto group = std::dynamic_pointer_cast<const OCIO::GroupTransform>(t))
+            for (int i = 0; i < group->getNumTransforms(); i++)
+                transform(group->getTransform(i), inverse);
+        if (auto pair = std::dynamic_pointer_cast<const OCIO::ColorSpaceTransform>(t))
+            between(pair->getSrc(), pair->getDst(), inverse);
+        if (auto looked = std::dynamic_pointer_cast<const OCIO::LookTransform>(t)) {
+            between(looked->getSrc(), looked->getDst(), inverse);
+            looks(looked->getLooks());
+        }
+        if (auto shown = std::dynamic_pointer_cast<const OCIO::DisplayViewTransform>(t)) {
+            space(shown->getSrc(), !inverse);
+            view(shown->getDisplay(), shown->getView());
+        }
+    }
+
+    void between(const char *from, const char *to, bool inverse) {
+        space(inverse ? to : from, true);
+        space(inverse ? from : to, false);
+    }
+
+    void named(const char *name) {
+        OCIO::ConstNamedTransformRcPtr t = config_->getNamedTransform(name);
+        if (!t || !enter(std::string("named transform \"") + name + '"', true)) return;
+        transform(t->getTransform(OCIO::TRANSFORM_DIR_FORWARD), false);
+        transform(t->getTransform(OCIO::TRANSFORM_DIR_INVERSE), false);
+        leave();
+    }
+
+    void look(const std::string &name) {
+        OCIO::ConstLookRcPtr l = config_->getLook(name.c_str());
+        if (!l || !enter("look \"" + name + '"', true)) return;
+        space(l->getProcessSpace(), true);
+        space(l->getProcessSpace(), false);
+        transform(l->getTransform(), false);
+        transform(l->getInverseTransform(), false);
+        leave();
+    }
+
+    void view_transform(const char *name) {
+        OCIO::ConstViewTransformRcPtr v =
+            given(name) ? config_->getViewTransform(name) : nullptr;
+        if (!v || !enter(std::string("view transform \"") + name + '"', true)) return;
+        transform(v->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE), false);
+        transform(v->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE), true);
+        leave();
+    }
+
+    const Config &config_;
+    std::vector<std::string> path_;
+    std::set<std::string> seen_;
+};
+
+// ---- Colors ----
+
+struct Color {
+    float rgba[4];
+};
+
+Color passed(const OCIO::ConstCPUProcessorRcPtr &processor, float r, float g, float b) {
+    Color color = {{r, g, b, 1}};
+    processor->applyRGBA(color.rgba);
+    return color;
+}
+
+bool is_number(const Color &color) {
+    return std::isfinite(color.rgba[0]) && std::isfinite(color.rgba[1]) &&
+           std::isfinite(color.rgba[2]);
+}
+
+// A matrix of NaN, or a table of it, would be black without a word.
+void check_numbers(const OCIO::ConstCPUProcessorRcPtr &processor, const std::string &what) {
+    const float colors[][3] = {{0.18f, 0.18f, 0.18f}, {1, 1, 1}, {0.5f, 0.3f, 0.1f}};
+    for (const auto &c : colors)
+        if (!is_number(passed(processor, c[0], c[1], c[2])))
+            throw std::runtime_error(what + " gives no numbers for plain colors (R G B " +
+                                     std::to_string(c[0]) + ' ' + std::to_string(c[1]) + ' ' +
+                                     std::to_string(c[2]) + " becomes NaN or infinite)");
+}
+
+// Whether sums and multiples of what comes in are sums and multiples of what comes out, as of
+// light.
+bool is_linear(const OCIO::ConstCPUProcessorRcPtr &processor) {
+    const float colors[][3] = {
+        {0.02f, 0.3f, 0.7f}, {0.9f, 0.05f, 0.2f}, {0.18f, 0.18f, 0.18f}, {2, 4, 1}};
+    const Color zero = passed(processor, 0, 0, 0);
+    for (const auto &c : colors) {
+        const Color whole = passed(processor, c[0], c[1], c[2]);
+        Color sum = {{0, 0, 0, 0}};
+        for (int k = 0; k < 3; k++) {
+            const Color part = passed(processor, k == 0 ? c[0] / 4 : 0, k == 1 ? c[1] / 4 : 0,
+                                      k == 2 ? c[2] / 4 : 0);
+            for (int i = 0; i < 3; i++) sum.rgba[i] += 4 * part.rgba[i];
+        }
+        for (int i = 0; i < 3; i++)
+            if (!(std::fabs(sum.rgba[i] - whole.rgba[i]) < 1e-4f) ||
+                !(std::fabs(zero.rgba[i]) < 1e-6f))
+                return false;
+    }
+    return true;
+}
+
 // ---- Processors ----
 
 std::string from_of(const wf_ocio_query &query, const Config &config) {
@@ -101,6 +274,7 @@ std::string from_of(const wf_ocio_query &query, const Config &config) {
 OCIO::ConstProcessorRcPtr to_space(const wf_ocio_query &query, const Config &config,
                                    const std::string &from) {
     check_space(config, query.to);
+    Walk(config).space(query.to, false);
     if (!given(query.look)) return config->getProcessor(from.c_str(), query.to);
     auto look = OCIO::LookTransform::Create();
     look->setSrc(from.c_str());
@@ -117,6 +291,7 @@ OCIO::ConstProcessorRcPtr to_view(const wf_ocio_query &query, const Config &conf
     const std::string view =
         given(query.view) ? query.view : config->getDefaultView(display.c_str());
     check_view(config, display.c_str(), view.c_str());
+    Walk(config).view(display.c_str(), view.c_str());
     auto transform = OCIO::DisplayViewTransform::Create();
     transform->setSrc(from.c_str());
     transform->setDisplay(display.c_str());
@@ -133,7 +308,11 @@ OCIO::ConstProcessorRcPtr to_view(const wf_ocio_query &query, const Config &conf
 OCIO::ConstProcessorRcPtr processor_of(const wf_ocio_query &query, const Config &config) {
     const std::string from = from_of(query, config);
     bool by_view = given(query.display) || given(query.view);
-    if (given(query.look)) check_looks(config, query.look);
+    Walk(config).space(from.c_str(), true);
+    if (given(query.look)) {
+        check_looks(config, query.look);
+        Walk(config).looks(query.look);
+    }
     if (given(query.to) && by_view)
         throw std::runtime_error(
             "--to names one result and --display and --view another: leave one out");
@@ -144,20 +323,10 @@ OCIO::ConstProcessorRcPtr processor_of(const wf_ocio_query &query, const Config 
         "it with --to, or a display and a view with --display and --view");
 }
 
-// Light may be negative; R'G'B' may not.
-bool is_light(const wf_ocio_query &query, const Config &config) {
-    OCIO::ConstColorSpaceRcPtr space =
-        given(query.to) ? config->getColorSpace(query.to) : nullptr;
-    if (!space) return false;
-    const std::string encoding = space->getEncoding();
-    return space->isData() || encoding == "scene-linear" || encoding == "display-linear";
-}
-
 // ---- Lines ----
 
 struct Transform {
     OCIO::ConstCPUProcessorRcPtr processor;
-    float least; // of what comes out
 };
 
 // So many pixels are handed over at once, on the caller's stack.
@@ -169,7 +338,8 @@ struct Block {
     size_t used;
 };
 
-// OpenColorIO makes all channels of a pixel black where one is NaN, and lets Inf into the others.
+// OpenColorIO makes all channels of a pixel black where one is NaN, and lets Inf into the
+// others.
 float finite(float x) {
     if (std::isnan(x)) return 0;
     return std::isinf(x) ? std::copysign(65504.0f, x) : x;
@@ -187,12 +357,11 @@ void gather(Block &block, const float *r, const float *g, const float *b, size_t
     }
 }
 
-void scatter(const Block &block, float least, float *const plane[3], size_t count) {
+void scatter(const Block &block, float *const plane[3], size_t count) {
     for (int c = 0; c < 3; c++)
         for (size_t i = 0; i < count; i++) {
             float value = block.rgba[block.slot[i]][c];
-            if (std::isnan(value)) value = 0;
-            plane[c][i] = value > least ? value : least;
+            plane[c][i] = std::isnan(value) ? 0 : value;
         }
 }
 
@@ -215,7 +384,7 @@ void apply(const void *self, float *r, float *g, float *b, size_t width_px) {
         float *const plane[3] = {r + start, g + start, b + start};
         gather(block, plane[0], plane[1], plane[2], count);
         convert(t, block);
-        scatter(block, t.least, plane, count);
+        scatter(block, plane, count);
     }
 }
 
@@ -225,41 +394,100 @@ void release(void *self) {
 
 // ---- Opening ----
 
-Config load(const wf_ocio_query &query) {
-    if (given(query.config)) return OCIO::Config::CreateFromFile(query.config);
+Config load(const char *file) {
+    if (given(file)) return OCIO::Config::CreateFromFile(file);
     std::istringstream text(shipped_config);
     return OCIO::Config::CreateFromStream(text);
 }
 
+std::string name_of_result(const wf_ocio_query &query, const Config &config) {
+    if (given(query.to)) return std::string("color space \"") + query.to + '"';
+    const char *display = given(query.display) ? query.display : config->getDefaultDisplay();
+    const char *view = given(query.view) ? query.view : config->getDefaultView(display);
+    const char *space = config->getDisplayViewColorSpaceName(display, view);
+    return std::string("view \"") + view + "\" of \"" + display + "\" (color space \"" +
+           (given(space) ? space : "") + "\")";
+}
+
+OCIO::ConstCPUProcessorRcPtr to_light(const std::string &from, const Config &config) {
+    Walk(config).space(from.c_str(), true);
+    if (!config->hasRole(OCIO::ROLE_SCENE_LINEAR))
+        throw std::runtime_error("it has no scene_linear role to decode \"" + from + "\" to");
+    Walk(config).space(OCIO::ROLE_SCENE_LINEAR, false);
+    auto processor =
+        config->getProcessor(from.c_str(), OCIO::ROLE_SCENE_LINEAR)->getDefaultCPUProcessor();
+    check_numbers(processor, "color space \"" + from + '"');
+    return processor;
+}
+
 Transform *open(const wf_ocio_query &query) {
-    const Config config = load(query);
+    const Config config = load(query.config);
+    const std::string from = from_of(query, config);
     const auto processor = processor_of(query, config)->getDefaultCPUProcessor();
-    return new Transform{processor, is_light(query, config) ? -HUGE_VALF : 0.0f};
+    if (config->hasRole(OCIO::ROLE_SCENE_LINEAR)) to_light(from, config);
+    check_numbers(processor, "the " + name_of_result(query, config));
+    return new Transform{processor};
+}
+
+const char *space_of_role(const Config &config, const char *role) {
+    OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(role);
+    return space ? space->getName() : "";
+}
+
+void open_input(const char *config_file, const char *name, wf_ocio_input &out) {
+    const Config config = load(config_file);
+    wf_ocio_query query = {};
+    query.from = name;
+    const std::string from = from_of(query, config);
+    const bool has_light = config->hasRole(OCIO::ROLE_SCENE_LINEAR);
+    out.has_ap0 = config->hasRole(WF_OCIO_AP0);
+    snprintf(out.light_space, sizeof out.light_space, "%s",
+             space_of_role(config, from.c_str()));
+    if (!has_light) return;
+    const auto processor = to_light(from, config);
+    if (is_linear(processor)) return;
+    snprintf(out.light_space, sizeof out.light_space, "%s",
+             space_of_role(config, OCIO::ROLE_SCENE_LINEAR));
+    out.decode = wf_transform{apply, release, new Transform{processor}};
 }
 
 // What cannot be told whole ends in "..".
-void explain(const wf_ocio_query &query, const char *says, char *why, size_t why_size) {
-    const char *name = given(query.config) ? query.config : "weft's own configuration";
+void explain(const char *file, const char *says, char *why, size_t why_size) {
+    const char *name = given(file) ? file : "weft's own configuration";
     int length = std::snprintf(why, why_size, "%.300s: %s", name, says);
     if (length >= 0 && static_cast<size_t>(length) >= why_size && why_size > 4)
         std::memcpy(why + why_size - 4, " ..", 4);
+}
+
+// Does work, of which nothing may be thrown at C.
+template <typename Work> bool guarded(const char *file, char *why, size_t why_size, Work work) {
+    try {
+        work();
+        return true;
+    } catch (const std::exception &failure) {
+        explain(file, failure.what(), why, why_size);
+    } catch (...) {
+        explain(file, "OpenColorIO failed and does not say why", why, why_size);
+    }
+    return false;
 }
 
 } // namespace
 
 extern "C" {
 __attribute__((visibility("default"))) wf_ocio_open_fn wf_ocio_open;
+__attribute__((visibility("default"))) wf_ocio_input_fn wf_ocio_input_open;
 
 bool wf_ocio_open(const wf_ocio_query *query, wf_transform *out, char *why, size_t why_size) {
     *out = wf_transform{nullptr, nullptr, nullptr};
-    try {
+    return guarded(query->config, why, why_size, [&] {
         *out = wf_transform{apply, release, open(*query)};
-        return true;
-    } catch (const std::exception &failure) {
-        explain(*query, failure.what(), why, why_size);
-    } catch (...) {
-        explain(*query, "OpenColorIO failed and does not say why", why, why_size);
-    }
-    return false;
+    });
+}
+
+bool wf_ocio_input_open(const char *config, const char *from, wf_ocio_input *out, char *why,
+                        size_t why_size) {
+    *out = wf_ocio_input{};
+    return guarded(config, why, why_size, [&] { open_input(config, from, *out); });
 }
 }

@@ -14,10 +14,24 @@ typedef struct wf_ocio_query {
     const char *display, *view, *look;
 } wf_ocio_query;
 
-/* The entry point of the OpenColorIO module. Unknown names are refused with the list of the
- * names there are. Before OpenColorIO sees them NaN is made 0, and Inf the largest half;
- * negative R'G'B' is made 0 after it, but light (a scene-linear `to`) may be negative. */
+/* Unknown names are refused with the list of the names there are, and so is a space, a look or
+ * a view that is made of itself or gives no numbers for plain colors. Before OpenColorIO sees
+ * them NaN is made 0, and Inf the largest half. */
 typedef bool wf_ocio_open_fn(const wf_ocio_query *query, wf_transform *out, char *why,
                              size_t why_size);
+
+/* What a space of a configuration is as an input. */
+typedef struct wf_ocio_input {
+    wf_transform decode;   /* to the scene_linear role, where the space is not proportional to
+                              light; else empty. The caller frees it. */
+    char light_space[128]; /* what light is in then: the space itself, or that of the role */
+    bool has_ap0;          /* there is an aces_interchange role: ACES2065-1 by that name */
+} wf_ocio_input;
+
+/* from: NULL for the scene_linear role. Refuses what wf_ocio_open refuses. */
+typedef bool wf_ocio_input_fn(const char *config, const char *from, wf_ocio_input *out,
+                              char *why, size_t why_size);
+
+#define WF_OCIO_AP0 "aces_interchange"
 
 #endif

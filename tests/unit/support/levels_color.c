@@ -56,6 +56,25 @@ static void hlg_curve(level_run *r) {
     curve(r, &wf_curve_hlg);
 }
 
+static void decode(level_run *r, const wf_curve *c) {
+    float *signal = level_floats(r, r->count);
+    at(r)->decode[c->kind](c, signal, r->count);
+    level_keep_floats(r, signal, r->count);
+}
+
+static void power_decode(level_run *r) {
+    const wf_curve *const curves[] = {&wf_curve_bt1886, &wf_curve_srgb, &wf_curve_bt2020};
+    decode(r, curves[level_draw(r) % 3]);
+}
+
+static void pq_decode(level_run *r) {
+    decode(r, &wf_curve_pq);
+}
+
+static void hlg_decode(level_run *r) {
+    decode(r, &wf_curve_hlg);
+}
+
 static void ycbcr(level_run *r) {
     const wf_ycbcr w = wf_ycbcr_of((wf_luma)(level_draw(r) % 3));
     float *rgb[3];
@@ -117,6 +136,9 @@ static const level_row rows[] = {
     {"line.curve, powers", power_curves, false, 0},
     {"line.curve, PQ", pq_curve, false, 0},
     {"line.curve, HLG", hlg_curve, false, 0},
+    {"line.decode, powers", power_decode, false, 0},
+    {"line.decode, PQ", pq_decode, false, 0},
+    {"line.decode, HLG", hlg_decode, false, 0},
     {"line.ycbcr", ycbcr, true, 0},
     {"line.deinterleave", deinterleave, true, 0},
     {"line.half_band", half_band, true, 0},
