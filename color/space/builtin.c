@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "color/line/line.h"
 #include "color/space/space.h"
@@ -32,7 +33,13 @@ static void apply_builtin(const void *self, float *r, float *g, float *b, size_t
         t->ops->curve[t->encodes->kind](t->encodes, plane[c], width_px);
 }
 
-/* Primaries that are the same are the same row of a table. */
+static bool same(const wf_chromaticities *a, const wf_chromaticities *b) {
+    return !memcmp(a->red, b->red, sizeof a->red) &&
+           !memcmp(a->green, b->green, sizeof a->green) &&
+           !memcmp(a->blue, b->blue, sizeof a->blue) &&
+           !memcmp(a->white, b->white, sizeof a->white);
+}
+
 static bool make(const wf_curve *decodes, const wf_chromaticities *from,
                  const wf_chromaticities *to, const wf_curve *encodes, wf_transform *out) {
     builtin *t = malloc(sizeof *t);
@@ -40,7 +47,7 @@ static bool make(const wf_curve *decodes, const wf_chromaticities *from,
     *t = (builtin){.ops = wf_line_ops_best(),
                    .decodes = decodes,
                    .encodes = encodes,
-                   .mixes = from != to,
+                   .mixes = !same(from, to),
                    .mix = mix_of(from, to)};
     *out = (wf_transform){apply_builtin, free, t};
     return true;

@@ -174,6 +174,7 @@ wf_report_legal wf_setup_legal(const weft_job *job, const wf_setup *s) {
 void wf_setup_free(wf_setup *s) {
     wf_sequence_free(&s->sequence);
     if (s->transform.free) s->transform.free(s->transform.self);
+    if (s->decode.free) s->decode.free(s->decode.self);
     free(s->display);
     *s = (wf_setup){0};
 }

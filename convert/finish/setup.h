@@ -17,12 +17,17 @@ typedef struct wf_setup {
     wf_sequence sequence;           /* the files that the source reads; empty: a scene, video */
     int64_t first_frame, end_frame; /* of this chunk */
     bool endless;                   /* the source lowers end_frame when it meets its end */
-    const char *scene_space; /* what the input says that its colors are in; NULL: nothing */
+    const char *scene_space; /* what the input says that its light is in; NULL: nothing */
+    const wf_chromaticities *scene_primaries; /* and its primaries, where they have no name */
+    bool decodes; /* the source decodes what --from encodes, before it is summed */
 
     wf_output output;
     wf_output_options output_options;
     char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
     char color_space[64];            /* of what is written; "" if it has no name */
+    wf_chromaticities primaries;     /* of light that is written as it came in */
+    wf_transform decode;             /* what --from encodes becomes light before it is summed;
+                                        apply is NULL where the input is taken as it is */
     wf_transform transform;          /* apply is NULL where colors are left alone */
     wf_encoding encoding;            /* where codes are written */
     wf_display *display;             /* the encoding's, for luma-adjust; else NULL */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "color/space/builtin.h"
+#include "color/space/decode.h"
 #include "color/space/ocio/ocio.h"
 #include "convert/base/module.h"
 #include "convert/job/colors.h"
@@ -18,58 +19,188 @@ static const char *foreign_config(const weft_job *job) {
     return job->ocio ? job->ocio : given(secure_getenv("OCIO"));
 }
 
-static weft_status open_ocio(const wf_ocio_query *query, wf_setup *s, weft_error *err) {
+static weft_status ocio_entry(const char *name, void *entry, weft_error *err) {
     void *symbol;
-    weft_status status = wf_module_symbol("ocio", "wf_ocio_open", &symbol, err);
-    if (status) return status;
-    wf_ocio_open_fn *open;
-    memcpy(&open, &symbol, sizeof open);
+    weft_status status = wf_module_symbol("ocio", name, &symbol, err);
+    if (!status) memcpy(entry, &symbol, sizeof symbol);
+    return status;
+}
+
+/* ---- The input's light ---- */
+
+/* What is summed: light of a space of the configuration, or of primaries. */
+typedef struct light {
+    const char *config; /* foreign; NULL: weft's own */
+    bool by_ocio;       /* spaces are OpenColorIO's */
+    char space[128];    /* of the configuration, or of weft; "": its scene_linear role */
+    const wf_chromaticities *primaries; /* NULL: those of the space */
+} light;
+
+static weft_status refuse_encoded(const char *from, weft_error *err) {
+    return wf_fail(err, WEFT_USAGE,
+                   "the input cannot be in %s, which is encoded: samples are light and must be "
+                   "linear; take one of lin_rec709, ACEScg, ACES2065-1, lin_rec2020, lin_p3d65",
+                   from);
+}
+
+static weft_status no_memory(weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "no memory for the color transform");
+}
+
+/* A space of weft's own. */
+static weft_status find_own(const char *from, wf_setup *s, light *l, weft_error *err) {
     char why[900];
-    if (!open(query, &s->transform, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
+    const wf_space *space = wf_space_find(from, why, sizeof why);
+    if (!space) return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (space->curve && !s->decodes) return refuse_encoded(from, err);
+    const wf_decoding decoding = wf_decoding_of(space->curve);
+    if (space->curve && !wf_decoding_transform(&decoding, &s->decode)) return no_memory(err);
+    l->primaries = &wf_chromaticities_of[space->primaries];
+    const wf_space *linear = space->curve ? wf_space_linear(space->primaries) : space;
+    snprintf(l->space, sizeof l->space, "%s", linear ? linear->name : "");
     return WEFT_OK;
 }
 
-static const char *source_space(const weft_job *job, const wf_setup *s) {
-    return job->from ? job->from : s->scene_space ? s->scene_space : "lin_rec709";
+/* A space of a configuration. */
+static weft_status find_foreign(const char *from, wf_setup *s, light *l, weft_error *err) {
+    wf_ocio_input_fn *open;
+    wf_ocio_input input;
+    char why[900];
+    weft_status status = ocio_entry("wf_ocio_input_open", &open, err);
+    if (status) return status;
+    if (!open(l->config, from, &input, why, sizeof why))
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    s->decode = input.decode;
+    snprintf(l->space, sizeof l->space, "%s", input.light_space);
+    return s->decode.apply && !s->decodes ? refuse_encoded(from, err) : WEFT_OK;
 }
 
-static weft_status choose_transform(const weft_job *job, wf_setup *s, weft_error *err) {
-    const char *config = foreign_config(job),
-               *raster_space = wf_colors_of(job->raster.matrix)->space;
+/* What files say of their primaries, in a configuration that has ACES2065-1 to say it in. */
+static weft_status place_primaries(const weft_job *job, wf_setup *s, light *l,
+                                   weft_error *err) {
+    wf_ocio_input_fn *open;
+    wf_ocio_input input;
+    char why[900];
+    weft_status status = ocio_entry("wf_ocio_input_open", &open, err);
+    if (status) return status;
+    if (!open(l->config, NULL, &input, why, sizeof why))
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (input.has_ap0) {
+        snprintf(l->space, sizeof l->space, "%s", WF_OCIO_AP0);
+        l->primaries = s->scene_primaries;
+    } else
+        wf_job_warn(job,
+                    "the files say what their primaries are, and the configuration has no role "
+                    "%s to tell it by: they are taken as its scene_linear role; --from names "
+                    "another space",
+                    WF_OCIO_AP0);
+    return WEFT_OK;
+}
+
+static weft_status find_light(const weft_job *job, wf_setup *s, light *l, weft_error *err) {
+    if (job->from) return (l->by_ocio ? find_foreign : find_own)(job->from, s, l, err);
+    if (s->scene_space) {
+        snprintf(l->space, sizeof l->space, "%s", s->scene_space);
+        return l->by_ocio ? WEFT_OK : find_own(s->scene_space, s, l, err);
+    }
+    if (l->by_ocio) return s->scene_primaries ? place_primaries(job, s, l, err) : WEFT_OK;
+    if (!s->scene_primaries) return find_own("lin_rec709", s, l, err);
+    l->primaries = s->scene_primaries;
+    wf_primaries like = wf_primaries_like(l->primaries);
+    const wf_space *linear = like < WF_PRIMARIES_COUNT ? wf_space_linear(like) : NULL;
+    if (linear) snprintf(l->space, sizeof l->space, "%s", linear->name);
+    return WEFT_OK;
+}
+
+/* ---- From there to the output ---- */
+
+/* One transform after another. */
+typedef struct chain {
+    wf_transform first, second;
+} chain;
+
+static void apply_chain(const void *self, float *r, float *g, float *b, size_t width_px) {
+    const chain *c = self;
+    c->first.apply(c->first.self, r, g, b, width_px);
+    c->second.apply(c->second.self, r, g, b, width_px);
+}
+
+static void free_chain(void *self) {
+    chain *c = self;
+    c->first.free(c->first.self);
+    c->second.free(c->second.self);
+    free(c);
+}
+
+/* Light of other primaries becomes ACES2065-1 first. */
+static weft_status mix_first(const wf_chromaticities *primaries, wf_setup *s, weft_error *err) {
+    chain *c = malloc(sizeof *c);
+    if (!c || !wf_builtin_mix(primaries, &wf_chromaticities_of[WF_PRIMARIES_AP0], &c->first)) {
+        free(c);
+        return no_memory(err);
+    }
+    c->second = s->transform;
+    s->transform = (wf_transform){apply_chain, free_chain, c};
+    return WEFT_OK;
+}
+
+static weft_status open_ocio(const weft_job *job, const light *l, const char *to, wf_setup *s,
+                             weft_error *err) {
+    wf_ocio_open_fn *open;
+    char why[900];
+    const wf_ocio_query query = {l->config,    given(l->space), to,
+                                 job->display, job->view,       job->look};
+    weft_status status = ocio_entry("wf_ocio_open", &open, err);
+    if (status) return status;
+    if (!open(&query, &s->transform, why, sizeof why))
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    return l->primaries ? mix_first(l->primaries, s, err) : WEFT_OK;
+}
+
+static weft_status choose_transform(const weft_job *job, const light *l, wf_setup *s,
+                                    weft_error *err) {
     bool by_display = job->display || job->view;
-    const char *to = job->to ? job->to : config || by_display ? NULL : raster_space;
+    const char *raster_space = wf_colors_of(job->raster.matrix)->space;
+    const char *to = job->to ? job->to : l->config || by_display ? NULL : raster_space;
     snprintf(s->color_space, sizeof s->color_space, "%s",
              to             ? to
              : job->view    ? job->view
              : job->display ? job->display
                             : "");
-    if (!config && !by_display && !job->look) {
-        char why[900];
-        if (wf_builtin_transform(source_space(job, s), to, &s->transform, why, sizeof why))
-            return WEFT_OK;
-        return wf_fail(err, WEFT_USAGE, "%s", why);
-    }
-    const char *from = job->from ? job->from : s->scene_space;
-    const wf_ocio_query query = {config, from, to, job->display, job->view, job->look};
-    return open_ocio(&query, s, err);
+    if (l->by_ocio) return open_ocio(job, l, to, s, err);
+    char why[900];
+    if (wf_builtin_from_light(l->primaries, to, &s->transform, why, sizeof why)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%s", why);
 }
 
 static bool left_linear(const weft_job *job, const wf_output_kind *kind) {
     return kind->layout == WF_LINEAR && !job->to && !job->display && !job->view && !job->look;
 }
 
+/* Light is written as it came in, with its primaries. */
+static weft_status leave_linear(const light *l, wf_setup *s) {
+    snprintf(s->color_space, sizeof s->color_space, "%s", l->space);
+    if (!l->primaries) return WEFT_OK;
+    s->primaries = *l->primaries;
+    s->output_options.primaries = &s->primaries;
+    return WEFT_OK;
+}
+
 weft_status wf_setup_color(const weft_job *job, wf_setup *s, weft_error *err) {
-    if (left_linear(job, s->output.kind)) {
-        snprintf(s->color_space, sizeof s->color_space, "%s", source_space(job, s));
-        return WEFT_OK;
-    }
+    bool linear = left_linear(job, s->output.kind);
+    const char *config = foreign_config(job);
+    light l = {.config = config,
+               .by_ocio = linear ? config && job->from
+                                 : config || job->display || job->view || job->look};
+    weft_status status = find_light(job, s, &l, err);
+    if (status) return status;
+    if (linear) return leave_linear(&l, s);
     if (job->nan_fix == WF_NAN_NONE)
         return wf_fail(err, WEFT_USAGE,
                        "--fix-nan none is for linear EXR output only: %s cannot "
                        "hold NaN; take box3, black or error",
                        job->output);
-    return choose_transform(job, s, err);
+    return choose_transform(job, &l, s, err);
 }
 
 void wf_setup_color_of_raster(const weft_job *job, wf_setup *s) {

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_JOB_OUTPUT_H
 #define WF_CONVERT_JOB_OUTPUT_H
 
+#include "color/space/space.h"
 #include "convert/base/fail.h"
 #include "filters/raster/raster.h"
 
@@ -32,17 +33,18 @@ typedef struct wf_output_options {
     wf_layout layout;
     int bits; /* of the codes; 32 for WF_LINEAR */
     bool full_range;
-    bool subsampled;           /* 4:2:2; false: 4:4:4 */
-    int64_t first_frame;       /* of this chunk of the run */
-    int64_t frame_count;       /* -1: not known before the end */
-    bool separate_fields;      /* sequences: a file a field */
-    bool stream_header;        /* false: a later chunk, to be joined by cat */
-    const char *timecode;      /* of frame 0; validated */
-    const char *color_space;   /* what the codes are in, for metadata; "" if unknown */
-    wf_rational subframe_rate; /* "frames" are subframes; {0, 0}: they are frames */
-    const char *codec;         /* containers: what is coded; NULL: the container's default */
-    int silent_tracks;         /* containers: of sound */
-    int threads;               /* that an encoder may use; 0: all */
+    bool subsampled;                    /* 4:2:2; false: 4:4:4 */
+    int64_t first_frame;                /* of this chunk of the run */
+    int64_t frame_count;                /* -1: not known before the end */
+    bool separate_fields;               /* sequences: a file a field */
+    bool stream_header;                 /* false: a later chunk, to be joined by cat */
+    const char *timecode;               /* of frame 0; validated */
+    const char *color_space;            /* what the codes are in, for metadata; "" if unknown */
+    const wf_chromaticities *primaries; /* of light; NULL: what color_space tells of them */
+    wf_rational subframe_rate;          /* "frames" are subframes; {0, 0}: they are frames */
+    const char *codec; /* containers: what is coded; NULL: the container's default */
+    int silent_tracks; /* containers: of sound */
+    int threads;       /* that an encoder may use; 0: all */
     bool overwrite, resume;
 } wf_output_options;
 

@@ -136,11 +136,36 @@ static weft_status examine_dpx(const exam *x) {
     return WEFT_OK;
 }
 
+/* ---- TGA, which begins with nothing of its own ---- */
+
+#define TGA_HEADER_BYTES 18
+
+/* A color map or none, one of six kinds of picture, a size, and a depth there is. */
+static bool looks_like_tga(const exam *x) {
+    uint8_t h[TGA_HEADER_BYTES];
+    if (!read_at(x, 0, h, sizeof h)) return false;
+    int kind = h[2] & 7, depth = h[16];
+    bool mapped = kind == 1;
+    return h[1] <= 1 && (!mapped || h[1]) && kind >= 1 && kind <= 3 && (h[2] & ~0xb) == 0 &&
+           (h[12] || h[13]) && (h[14] || h[15]) && (h[17] & 0xc0) == 0 &&
+           (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
+}
+
 /* ---- The formats ---- */
 
 static weft_status examine_nothing(const exam *x) {
     (void)x;
     return WEFT_OK;
+}
+
+static weft_status examine_webp(const exam *x) {
+    uint8_t head[12];
+    if (read_at(x, 0, head, sizeof head) && !memcmp(head + 8, "WEBP", 4)) {
+        uint64_t bytes = (uint64_t)head[4] | (uint64_t)head[5] << 8 | (uint64_t)head[6] << 16 |
+                         (uint64_t)head[7] << 24;
+        return bytes + 8 <= x->bytes ? WEFT_OK : damaged(x, "it ends before its picture does");
+    }
+    return wf_fail(x->err, WEFT_FAILED, "%.700s: it is RIFF, and not a WebP picture", x->path);
 }
 
 #define MAGIC_MOST 8
@@ -160,6 +185,9 @@ static const struct {
     {"tiff", "MM\0+", 4, examine_nothing},
     {"png", "\x89PNG\r\n\x1a\n", 8, examine_png},
     {"jpeg", "\xff\xd8\xff", 3, examine_jpeg},
+    {"hdr", "#?RADIAN", 8, examine_nothing},
+    {"hdr", "#?RGBE", 6, examine_nothing},
+    {"webp", "RIFF", 4, examine_webp},
 };
 
 static weft_status examine(const exam *x, const char **format) {
@@ -172,9 +200,14 @@ static weft_status examine(const exam *x, const char **format) {
         *format = formats[i].name;
         return formats[i].examine(x);
     }
+    if (looks_like_tga(x)) {
+        *format = "targa";
+        return WEFT_OK;
+    }
     return wf_fail(
         x->err, WEFT_FAILED,
-        "%.700s: it does not begin like an EXR, DPX, TIFF, PNG or JPEG, which weft reads; "
+        "%.700s: it does not begin like an EXR, DPX, TIFF, PNG, JPEG, WebP, HDR or TGA, which "
+        "weft reads; "
         "convert it first (oiiotool IN -o OUT.exr does)",
         x->path);
 }

@@ -11,6 +11,24 @@ typedef struct wf_box {
     int x0, y0, x1, y1;
 } wf_box;
 
+/* What a file says of its colors, as it says it; what of that counts is decided in
+ * convert/read/file_colors.c. */
+typedef struct wf_color_said {
+    bool floats;             /* samples are floats, which are light */
+    char space[64];          /* weft:colorSpace, or the project of a DPX; "" if none */
+    char interop[64];        /* colorInteropID; "" if none */
+    bool has_chromaticities; /* x and y of red, green, blue and white: */
+    double chromaticities[8];
+    int primaries, transfer; /* code points of PNG's cICP; 0: none */
+    bool narrow;             /* and its range */
+    int bits;                /* of a sample of a PNG */
+    bool srgb;               /* a PNG has an sRGB chunk */
+    double gamma;            /* of PNG's gAMA: signals are light to this power; 0: none */
+    char profile[64]; /* what an ICC profile calls itself that is not of sRGB; "" if none */
+    bool dpx;         /* it is a DPX, with these fields of ST 268: */
+    int dpx_transfer, dpx_colorimetric;
+} wf_color_said;
+
 /* What a subframe says of itself. */
 typedef struct wf_image_info {
     wf_box display, data; /* the file's windows */
@@ -27,7 +45,8 @@ typedef struct wf_image_info {
     char timecode[16];  /* "" if none */
     bool timecode_mark; /* its field mark: the second of a pair */
     char raster[64];    /* weft:raster; "" if none */
-    char format[96];    /* for people: "OpenEXR scanline, ZIP, R G B half" */
+    wf_color_said colors;
+    char format[96]; /* for people: "OpenEXR scanline, ZIP, R G B half" */
 } wf_image_info;
 
 #endif

@@ -97,6 +97,9 @@ static weft_status tell_file(const char *path, int part, wf_facts *facts, weft_e
     if (status) return status;
     tell_picture(facts, wf_subframe_info(subframe));
     tell_taken(facts, subframe);
+    const wf_file_colors *colors = wf_subframe_colors(subframe);
+    if (*colors->trouble) wf_fact_text(facts, "trouble", colors->trouble);
+    if (*colors->warning) wf_fact_text(facts, "warning", colors->warning);
     wf_subframe_close(subframe);
     return WEFT_OK;
 }

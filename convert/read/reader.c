@@ -438,13 +438,38 @@ static void multiply_by_alpha(float *planes, size_t samples) {
         for (size_t i = 0; i < samples; i++) planes[c * samples + i] *= alpha[i];
 }
 
-/* Rows as a file stores them become rows of light, premultiplied. Codes have to be decoded to
- * light here, before straight color is multiplied by alpha (and, where encoded color is
- * premultiplied, between dividing by alpha and multiplying again). */
+/* Where there is no coverage color has nothing to be divided by. */
+static bool covers(float alpha) {
+    return alpha > 1e-6f;
+}
+
+static void divide_by_alpha(float *planes, size_t samples) {
+    const float *alpha = planes + 3 * samples;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < samples; i++)
+            planes[c * samples + i] /= covers(alpha[i]) ? alpha[i] : 1;
+}
+
+static void multiply_what_was_divided(float *planes, size_t samples) {
+    const float *alpha = planes + 3 * samples;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < samples; i++)
+            planes[c * samples + i] *= covers(alpha[i]) ? alpha[i] : 1;
+}
+
+/* Rows as a file stores them become rows of light, premultiplied: encoded color is decoded
+ * before it is multiplied by alpha, and where it is multiplied already, between dividing by
+ * alpha and multiplying again. */
 static bool bring_to_light(wf_reader *r, const wf_subframe *s) {
-    if (!s->multiplies || r->stored) return true;
+    size_t samples = plane_samples(&r->rows);
+    if ((!s->multiplies && !s->decode.apply) || r->stored) return true;
     if (!copy_to_light(r)) return false;
-    multiply_by_alpha(r->light, plane_samples(&r->rows));
+    float *light = r->light;
+    if (s->divides) divide_by_alpha(light, samples);
+    if (s->decode.apply)
+        s->decode.apply(s->decode.self, light, light + samples, light + 2 * samples, samples);
+    if (s->divides) multiply_what_was_divided(light, samples);
+    if (s->multiplies) multiply_by_alpha(light, samples);
     if (!s->info.has_alpha) r->rows.channels = 3;
     return true;
 }

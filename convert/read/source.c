@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "convert/base/module.h"
+#include "convert/media/color_tags.h"
 #include "convert/media/formats.h"
 #include "convert/media/oiio/oiio.h"
 #include "convert/read/source_exr.h"
@@ -105,6 +106,9 @@ static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int pa
     free(names);
     if (status) return status;
     if (part < 0 && o->part) s->pick.part_reason = WF_REASON_OPTION;
+    wf_read_color_tags(s->path, format, &s->info.colors);
+    status = wf_subframe_settle_colors(s, o, err);
+    if (status) return status;
     wf_subframe_settle_alpha(s, o);
     return read_whole(s, o, err);
 }

@@ -6,6 +6,7 @@
 #include "convert/job/taken.h"
 #include "convert/media/image.h"
 #include "convert/read/choice/pick.h"
+#include "convert/read/file_colors.h"
 
 /* What the job asks of every subframe. Strings are borrowed and outlive the source. */
 typedef struct wf_source_options {
@@ -13,6 +14,9 @@ typedef struct wf_source_options {
     const char *part;  /* part name or number, NULL: any */
     bool want_alpha;   /* deliver A as a fourth channel where the file has one */
     wf_alpha alpha;    /* how color is stored; WF_ALPHA_UNSET: as the file says */
+    bool to_light;     /* deliver light: what is encoded is decoded; else samples as stored */
+    const wf_transform
+        *decode; /* with to_light: decodes in the file's place; NULL: as it says */
     wf_nan_fix nan_fix;
     size_t max_memory_bytes;
 } wf_source_options;
@@ -64,7 +68,11 @@ const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
 const char *wf_subframe_part_name(const wf_subframe *subframe);
 const wf_pick *wf_subframe_pick(const wf_subframe *subframe);
 
-/* Adds what the file is taken for: "part", "layer", "channels", "alpha". */
+/* What its colors are by what the file says. */
+const wf_file_colors *wf_subframe_colors(const wf_subframe *subframe);
+
+/* Adds what the file is taken for: "part", "layer", "channels", "alpha", "space", "transfer".
+ */
 void wf_subframe_take(const wf_subframe *subframe, wf_taken_list *list);
 
 /* Tells all layers of all parts of an EXR, deep ones too; of other formats none. */

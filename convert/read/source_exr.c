@@ -261,6 +261,35 @@ static void read_raster(wf_subframe *s) {
     if (text) snprintf(s->info.raster, sizeof s->info.raster, "%s", text->string->str);
 }
 
+static void read_text(const wf_subframe *s, const char *name, char *to, size_t size) {
+    const exr_attribute_t *text = attribute(s, name, EXR_ATTR_STRING);
+    if (text) snprintf(to, size, "%s", text->string->str);
+}
+
+/* Chromaticities are an attribute that all parts share, which some writers give the first. */
+static const exr_attribute_t *chromaticities_of(const wf_subframe *s) {
+    const exr_attribute_t *own = attribute(s, "chromaticities", EXR_ATTR_CHROMATICITIES);
+    if (!own &&
+        (exr_get_attribute_by_name(s->exr, 0, "chromaticities", &own) != EXR_ERR_SUCCESS ||
+         own->type != EXR_ATTR_CHROMATICITIES))
+        return NULL;
+    return own;
+}
+
+static void read_colors(wf_subframe *s) {
+    wf_color_said *said = &s->info.colors;
+    said->floats = true;
+    read_text(s, "weft:colorSpace", said->space, sizeof said->space);
+    read_text(s, "colorInteropID", said->interop, sizeof said->interop);
+    const exr_attribute_t *found = chromaticities_of(s);
+    if (!found) return;
+    const exr_attr_chromaticities_t *c = found->chromaticities;
+    const float xy[8] = {c->red_x,  c->red_y,  c->green_x, c->green_y,
+                         c->blue_x, c->blue_y, c->white_x, c->white_y};
+    said->has_chromaticities = true;
+    for (int i = 0; i < 8; i++) said->chromaticities[i] = (double)xy[i];
+}
+
 static const char *compression_name(exr_compression_t compression) {
     static const char *const name[] = {"no compression", "RLE", "ZIPS", "ZIP",  "PIZ",
                                        "PXR24",          "B44", "B44A", "DWAA", "DWAB"};
@@ -327,6 +356,8 @@ static weft_status read_header(wf_subframe *s, const wf_source_options *o, int p
     weft_status status = choose_picture(s, o, part, err);
     if (!status) status = read_windows(s, err);
     s->info.alpha = WF_ALPHA_PREMULTIPLIED; /* as OpenEXR has it */
+    if (!status) read_colors(s);
+    if (!status) status = wf_subframe_settle_colors(s, o, err);
     if (!status) wf_subframe_settle_alpha(s, o);
     if (!status) status = lay_out_channels(s, err);
     if (!status) status = lay_out_chunks(s, err);

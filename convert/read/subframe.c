@@ -16,6 +16,26 @@ const wf_pick *wf_subframe_pick(const wf_subframe *subframe) {
     return &subframe->pick;
 }
 
+const wf_file_colors *wf_subframe_colors(const wf_subframe *subframe) {
+    return &subframe->colors;
+}
+
+weft_status wf_subframe_settle_colors(wf_subframe *s, const wf_source_options *o,
+                                      weft_error *err) {
+    s->colors = wf_file_colors_of(&s->info.colors);
+    if (!o->to_light) return WEFT_OK;
+    if (o->decode) {
+        s->decode = *o->decode;
+        return WEFT_OK;
+    }
+    if (*s->colors.trouble)
+        return wf_fail(err, WEFT_USAGE, "%s: %s", s->path, s->colors.trouble);
+    if (!s->colors.decoding.encoded) return WEFT_OK;
+    s->owns_decode = wf_decoding_transform(&s->colors.decoding, &s->decode);
+    return s->owns_decode ? WEFT_OK
+                          : wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to decode it", s->path);
+}
+
 void wf_subframe_settle_alpha(wf_subframe *s, const wf_source_options *o) {
     bool given = o->alpha != WF_ALPHA_UNSET, has = s->pick.count == 4;
     if (given) s->info.alpha = o->alpha;
@@ -25,8 +45,9 @@ void wf_subframe_settle_alpha(wf_subframe *s, const wf_source_options *o) {
                                                                 : WF_REASON_DEFAULT;
     bool counts = has && s->info.alpha != WF_ALPHA_IGNORED;
     s->multiplies = counts && s->info.alpha == WF_ALPHA_STRAIGHT;
+    s->divides = counts && !s->multiplies && s->decode.apply;
     s->info.has_alpha = counts && o->want_alpha;
-    if (!s->multiplies && !s->info.has_alpha) s->pick.count = 3;
+    if (!s->multiplies && !s->divides && !s->info.has_alpha) s->pick.count = 3;
 }
 
 void wf_subframe_take(const wf_subframe *s, wf_taken_list *list) {
@@ -40,6 +61,7 @@ void wf_subframe_take(const wf_subframe *s, wf_taken_list *list) {
     wf_take(list, "channels", wf_picture_kind_name(pick->kind),
             wf_reason_name(pick->layer_reason));
     wf_take(list, "alpha", alphas[s->info.alpha], wf_reason_name(s->alpha_reason));
+    wf_file_colors_take(&s->colors, list);
 }
 
 weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width_px, int lines,
@@ -62,6 +84,7 @@ void wf_subframe_close(wf_subframe *s) {
     if (!s) return;
     if (s->maker) s->maker->close(s->picture);
     if (s->exr) exr_finish(&s->exr);
+    if (s->owns_decode) s->decode.free(s->decode.self);
     free(s->whole);
     free(s->path);
     free(s);

@@ -31,6 +31,10 @@ struct wf_subframe {
     wf_pick pick;
     wf_reason alpha_reason;
     bool multiplies; /* color by alpha, which the file has not done */
+    bool divides;    /* by alpha before decoding, and multiplies after it */
+    wf_file_colors colors;
+    wf_transform decode; /* apply is NULL where samples are delivered as they are stored */
+    bool owns_decode;    /* and frees it */
     wf_image_info info;
     wf_exr_layout layout;
     exr_context_t exr;         /* NULL: read whole, through OpenImageIO */
@@ -41,8 +45,13 @@ struct wf_subframe {
     float *whole;              /* [channels][height][width] of the data window */
 };
 
-/* Settles, of a picture whose channels are picked and whose info.alpha says how its format
- * stores color beside alpha, whether alpha is read, multiplied by and delivered. */
+/* Settles what the picture's colors are taken for, by info.colors, and how they are decoded. */
+weft_status wf_subframe_settle_colors(wf_subframe *subframe, const wf_source_options *options,
+                                      weft_error *err);
+
+/* After its colors, settles, of a picture whose channels are picked and whose info.alpha says
+ * how its format stores color beside alpha, whether alpha is read, multiplied by and delivered.
+ */
 void wf_subframe_settle_alpha(wf_subframe *subframe, const wf_source_options *options);
 
 #endif

@@ -20,12 +20,6 @@ static bool takes(const weft_job *job) {
     return job->command == WF_CONVERT;
 }
 
-/* What the files say of their colors is not asked. */
-static weft_status open_input(wf_run *run, weft_error *err) {
-    run->source = calloc(1, sizeof(subframes));
-    return run->source ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for the job");
-}
-
 static void close_input(wf_run *run) {
     subframes *s = run->source;
     if (s) wf_resampler_free(s->resampler);
@@ -45,6 +39,15 @@ static bool shows_background(const weft_job *job) {
     return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
 }
 
+/* A configuration's scene_linear role stands for light of which the files say nothing. */
+static void look_at_colors(wf_run *run, const char *path) {
+    const subframes *s = run->source;
+    const wf_file_colors *colors = &s->first.colors;
+    if (*colors->warning) wf_job_warn(run->job, "%s: %s", path, colors->warning);
+    if (colors->primaries_said || colors->decoding.encoded)
+        run->setup.scene_primaries = &colors->primaries;
+}
+
 static weft_status look_at_first(wf_run *run, const wf_subframe_ref *ref, weft_error *err) {
     subframes *s = run->source;
     wf_subframe *subframe;
@@ -59,6 +62,7 @@ static weft_status look_at_first(wf_run *run, const wf_subframe_ref *ref, weft_e
                     ref->path, *s->first.pick.layer ? s->first.pick.layer : s->first.part_name,
                     s->first.pick.also);
     wf_subframe_close(subframe);
+    if (!run->job->from) look_at_colors(run, ref->path);
     return WEFT_OK;
 }
 
@@ -78,10 +82,29 @@ static weft_status find_input(wf_run *run, weft_error *err) {
         .part = job->part,
         .want_alpha = shows_background(job) && job->alpha != WF_ALPHA_IGNORED,
         .alpha = job->alpha,
+        .to_light = !job->from,
         .nan_fix = job->nan_fix,
         .max_memory_bytes = job->max_memory_bytes,
     };
     return look_at_first(run, ref, err);
+}
+
+static weft_status open_input(wf_run *run, weft_error *err) {
+    run->setup.decodes = true;
+    run->source = calloc(1, sizeof(subframes));
+    return run->source ? find_input(run, err)
+                       : wf_fail(err, WEFT_NO_MEMORY, "no memory for the job");
+}
+
+/* --from counts for all files, whatever they say. */
+static void settle_decoding(wf_run *run) {
+    subframes *s = run->source;
+    const wf_transform *decode = &run->setup.decode;
+    if (!run->job->from) return;
+    s->options.to_light = decode->apply;
+    s->options.decode = decode;
+    wf_take(&run->report->taken, "space", run->job->from, "option");
+    wf_take(&run->report->taken, "transfer", decode->apply ? "encoded" : "linear", "option");
 }
 
 /* ---- Rate ---- */
@@ -185,8 +208,8 @@ static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err)
 static weft_status count(wf_run *run, weft_error *err) {
     const subframes *s = run->source;
     wf_rational rate = {0, 0};
-    weft_status status = find_input(run, err);
-    if (!status) status = settle_rate(run->job, run, &rate, err);
+    settle_decoding(run);
+    weft_status status = settle_rate(run->job, run, &rate, err);
     if (!status && run->job->raster.pulldown) status = settle_film(run->job, &rate, err);
     if (!status) status = settle_fields(run, rate, err);
     if (!status) wf_start_timecode(run->job, &run->setup, &s->first.info);

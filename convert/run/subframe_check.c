@@ -7,7 +7,8 @@
 
 wf_first_subframe wf_first_subframe_of(const wf_subframe *subframe) {
     wf_first_subframe first = {.info = *wf_subframe_info(subframe),
-                               .pick = *wf_subframe_pick(subframe)};
+                               .pick = *wf_subframe_pick(subframe),
+                               .colors = *wf_subframe_colors(subframe)};
     snprintf(first.part_name, sizeof first.part_name, "%s", wf_subframe_part_name(subframe));
     return first;
 }
@@ -55,11 +56,26 @@ static weft_status check_pick(const wf_first_subframe *first, const char *path, 
     return WEFT_OK;
 }
 
+static weft_status check_colors(const weft_job *job, const wf_first_subframe *first,
+                                const char *path, const wf_subframe *subframe,
+                                weft_error *err) {
+    const wf_file_colors *a = &first->colors, *b = wf_subframe_colors(subframe);
+    char began[128], is[128];
+    if (job->from || wf_file_colors_same(a, b)) return WEFT_OK;
+    wf_file_colors_name(a, began, sizeof began);
+    wf_file_colors_name(b, is, sizeof is);
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its colors are %s, the sequence began with %s; name the one that all "
+                   "are in with --from",
+                   path, is, began);
+}
+
 weft_status wf_check_subframe(const weft_job *job, const wf_first_subframe *first,
                               const char *path, bool own_part, const wf_subframe *subframe,
                               weft_error *err) {
     const wf_image_info *info = wf_subframe_info(subframe);
     weft_status status = check_size(&first->info, path, info, err);
     if (!status) status = check_aspect(job, &first->info, path, info, err);
+    if (!status) status = check_colors(job, first, path, subframe, err);
     return status ? status : check_pick(first, path, own_part, subframe, err);
 }

@@ -136,6 +136,7 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
         .interlaced = o->raster->scan == WF_INTERLACED,
         .top_first = o->raster->top_first,
         .color_space = o->color_space ? o->color_space : "",
+        .light = o->primaries,
         .raster = o->raster->name,
         .subframe_rate = o->subframe_rate,
     };

@@ -185,6 +185,27 @@ void read_alpha(const ImageInput &in, const ImageSpec &spec, wf_image_info *info
     info->alpha = premultiplied ? WF_ALPHA_PREMULTIPLIED : WF_ALPHA_STRAIGHT;
 }
 
+// Whether a profile calls itself sRGB, in letters of one byte or of two.
+bool is_srgb(const char *data, size_t bytes) {
+    const char narrow[] = {'s', 'R', 'G', 'B'}, wide[] = {'s', 0, 'R', 0, 'G', 0, 'B'};
+    return std::search(data, data + bytes, narrow, narrow + sizeof narrow) != data + bytes ||
+           std::search(data, data + bytes, wide, wide + sizeof wide) != data + bytes;
+}
+
+// A DPX has a field for its transfer; weft writes the space's name into its project besides.
+void read_colors(const ImageInput &in, const ImageSpec &spec, wf_color_said *said) {
+    said->floats = spec.format.is_floating_point();
+    const bool dpx = !std::strcmp(in.format_name(), "dpx");
+    const std::string space =
+        spec.get_string_attribute(dpx ? "DocumentName" : "weft:colorSpace");
+    if (dpx || said->floats) snprintf(said->space, sizeof said->space, "%s", space.c_str());
+    const ParamValue *profile = spec.find_attribute("ICCProfile");
+    if (!profile || is_srgb(static_cast<const char *>(profile->data()), profile->type().size()))
+        return;
+    const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
+    snprintf(said->profile, sizeof said->profile, "%s", name.empty() ? "ICC" : name.c_str());
+}
+
 void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info) {
     *info = wf_image_info{};
     info->display = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
@@ -198,6 +219,7 @@ void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info)
     if (!wf_ratio_given(info->rate)) info->rate = info->frames;
     info->time_s = ratio_attribute(spec, "weft:time");
     read_alpha(in, spec, info);
+    read_colors(in, spec, &info->colors);
     info->whole = true;
     info->band_lines = spec.height;
     read_timecode(spec, info);

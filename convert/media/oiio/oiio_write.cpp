@@ -74,6 +74,13 @@ void describe_primaries(const std::string &space, ImageSpec &spec) {
             spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), row.xy);
 }
 
+void describe_light(const wf_chromaticities &c, ImageSpec &spec) {
+    const float xy[8] = {float(c.red[0]),   float(c.red[1]),  float(c.green[0]),
+                         float(c.green[1]), float(c.blue[0]), float(c.blue[1]),
+                         float(c.white[0]), float(c.white[1])};
+    spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), xy);
+}
+
 const char *order_name(const wf_oiio_picture &p) {
     if (p.field == 1) return p.top_lines ? "top field 1" : "bottom field 1";
     if (p.field == 2) return p.top_lines ? "top field 2" : "bottom field 2";
@@ -104,7 +111,10 @@ void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
     add_ratio(spec, "weft:time", p.time_s);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
-    describe_primaries(p.color_space, spec);
+    if (p.light)
+        describe_light(*p.light, spec);
+    else
+        describe_primaries(p.color_space, spec);
     if (p.field) spec.attribute("weft:field", p.field);
     describe_time(p, spec);
 }
