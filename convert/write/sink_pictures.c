@@ -123,6 +123,11 @@ static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const 
                   : wf_fail(err, status, "%.600s: %.400s", path, why.text);
 }
 
+static void describe_light(const wf_chromaticities *c, wf_oiio_picture *picture) {
+    const double *const xy[4] = {c->red, c->green, c->blue, c->white};
+    for (int i = 0; i < 8; i++) picture->chromaticities[i] = xy[i / 2][i % 2];
+}
+
 static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
     const wf_output_options *o = &s->options;
     wf_oiio_picture picture = {
@@ -136,10 +141,10 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
         .interlaced = o->raster->scan == WF_INTERLACED,
         .top_first = o->raster->top_first,
         .color_space = o->color_space ? o->color_space : "",
-        .light = o->primaries,
         .raster = o->raster->name,
         .subframe_rate = o->subframe_rate,
     };
+    if (o->primaries) describe_light(o->primaries, &picture);
     if (wf_color_has_tags(o->color_space)) {
         wf_color_tags tags = wf_color_tags_of(o->color_space, o->raster->matrix);
         picture.primaries = tags.primaries;

@@ -1,18 +1,15 @@
 // OpenColorIO as a wf_transform. No exception gets out of here.
 #include "color/space/ocio/ocio.h"
+#include "color/space/ocio/walk.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <memory>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <strings.h>
-#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 
@@ -90,126 +87,6 @@ void check_looks(const Config &config, const std::string &looks) {
         if (!config->getLook(name.c_str())) refuse("look", name, there);
     }
 }
-
-// ---- What is made of itself ----
-
-// Walks through what a conversion is made of before OpenColorIO does, which does not return
-// from a space that needs itself.
-class Walk {
-  public:
-    explicit Walk(const Config &config) : config_(config) {}
-
-    // Out of a space to the reference, or into it from there.
-    void space(const char *name, bool out) {
-        OCIO::ConstColorSpaceRcPtr space = config_->getColorSpace(name);
-        if (!space) return named(name);
-        if (!enter(std::string("color space \"") + space->getName() + '"', out)) return;
-        const auto to = OCIO::COLORSPACE_DIR_TO_REFERENCE,
-                   from = OCIO::COLORSPACE_DIR_FROM_REFERENCE;
-        OCIO::ConstTransformRcPtr own = space->getTransform(out ? to : from);
-        if (own)
-            transform(own, false);
-        else
-            transform(space->getTransform(out ? from : to), true);
-        if (space->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_DISPLAY)
-            view_transform(config_->getDefaultViewTransformName());
-        leave();
-    }
-
-    void looks(const std::string &list) {
-        for (size_t start = 0, end; start < list.size(); start = end + 1) {
-            end = std::min(list.find_first_of(",:|", start), list.size());
-            size_t first = list.find_first_not_of(" +-", start),
-                   last = list.find_last_not_of(' ', end - 1);
-            if (first < end) look(list.substr(first, last + 1 - first));
-        }
-    }
-
-    void view(const char *display, const char *name) {
-        const char *space = config_->getDisplayViewColorSpaceName(display, name);
-        if (space && !std::strcmp(space, "<USE_DISPLAY_NAME>")) space = display;
-        if (given(space)) this->space(space, false);
-        view_transform(config_->getDisplayViewTransformName(display, name));
-        const char *list = config_->getDisplayViewLooks(display, name);
-        if (given(list)) looks(list);
-    }
-
-  private:
-    static constexpr size_t deepest = 100;
-
-    bool enter(const std::string &what, bool out) {
-        const std::string key = what + (out ? " out" : " in");
-        if (std::find(path_.begin(), path_.end(), key) != path_.end())
-            throw std::runtime_error("the " + what + " is made of itself (" + way() + ")");
-        if (path_.size() == deepest)
-            throw std::runtime_error("the " + what + " is made of too many others");
-        if (!seen_.insert(key).second) return false;
-        path_.push_back(key);
-        return true;
-    }
-    void leave() { path_.pop_back(); }
-
-    std::string way() const {
-        std::string text;
-        for (const std::string &key : path_)
-            text += (text.empty() ? "" : ", ") + key.substr(0, key.rfind(' '));
-        return text;
-    }
-
-    void transform(const OCIO::ConstTransformRcPtr &t, bool inverse) {
-        if (!t) return;
-        inverse ^= t->getDirection() == OCIO::TRANSFORM_DIR_INVERSE;
-        if (auto group = std::dynamic_pointer_cast<const OCIO::GroupTransform>(t))
-            for (int i = 0; i < group->getNumTransforms(); i++)
-                transform(group->getTransform(i), inverse);
-        if (auto pair = std::dynamic_pointer_cast<const OCIO::ColorSpaceTransform>(t))
-            between(pair->getSrc(), pair->getDst(), inverse);
-        if (auto looked = std::dynamic_pointer_cast<const OCIO::LookTransform>(t)) {
-            between(looked->getSrc(), looked->getDst(), inverse);
-            looks(looked->getLooks());
-        }
-        if (auto shown = std::dynamic_pointer_cast<const OCIO::DisplayViewTransform>(t)) {
-            space(shown->getSrc(), !inverse);
-            view(shown->getDisplay(), shown->getView());
-        }
-    }
-
-    void between(const char *from, const char *to, bool inverse) {
-        space(inverse ? to : from, true);
-        space(inverse ? from : to, false);
-    }
-
-    void named(const char *name) {
-        OCIO::ConstNamedTransformRcPtr t = config_->getNamedTransform(name);
-        if (!t || !enter(std::string("named transform \"") + name + '"', true)) return;
-        transform(t->getTransform(OCIO::TRANSFORM_DIR_FORWARD), false);
-        transform(t->getTransform(OCIO::TRANSFORM_DIR_INVERSE), false);
-        leave();
-    }
-
-    void look(const std::string &name) {
-        OCIO::ConstLookRcPtr l = config_->getLook(name.c_str());
-        if (!l || !enter("look \"" + name + '"', true)) return;
-        space(l->getProcessSpace(), true);
-        space(l->getProcessSpace(), false);
-        transform(l->getTransform(), false);
-        transform(l->getInverseTransform(), false);
-        leave();
-    }
-
-    void view_transform(const char *name) {
-        OCIO::ConstViewTransformRcPtr v =
-            given(name) ? config_->getViewTransform(name) : nullptr;
-        if (!v || !enter(std::string("view transform \"") + name + '"', true)) return;
-        transform(v->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE), false);
-        transform(v->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE), true);
-        leave();
-    }
-
-    const Config &config_;
-    std::vector<std::string> path_;
-    std::set<std::string> seen_;
-};
 
 // ---- Colors ----
 

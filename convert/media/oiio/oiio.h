@@ -1,7 +1,6 @@
 #ifndef WF_CONVERT_MEDIA_OIIO_OIIO_H
 #define WF_CONVERT_MEDIA_OIIO_OIIO_H
 
-#include "color/space/space.h"
 #include "convert/base/fail.h"
 #include "convert/media/image.h"
 
@@ -37,11 +36,12 @@ typedef struct wf_oiio_picture {
     bool top_lines;  /* and that field has the frame's top line */
     bool interlaced; /* two fields are woven into it */
     bool top_first;
-    const char *timecode;              /* of the frame: "01:02:03;04"; "" for none */
-    const char *color_space;           /* "" if unknown */
-    const wf_chromaticities *light;    /* of EXR; NULL: what color_space tells of them */
-    int primaries, transfer;           /* its code points of ITU-T H.273; 0: none */
-    const char *raster;                /* for weft:raster; "" for none */
+    const char *timecode;     /* of the frame: "01:02:03;04"; "" for none */
+    const char *color_space;  /* "" if unknown */
+    double chromaticities[8]; /* x, y of red, green, blue and white of EXR; all 0: those of
+                                 color_space */
+    int primaries, transfer;  /* its code points of ITU-T H.273; 0: none */
+    const char *raster;       /* for weft:raster; "" for none */
     wf_rational subframe_rate, time_s; /* of a subframe; {0, 0}: it is none */
 } wf_oiio_picture;
 

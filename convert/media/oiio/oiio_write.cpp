@@ -74,10 +74,9 @@ void describe_primaries(const std::string &space, ImageSpec &spec) {
             spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), row.xy);
 }
 
-void describe_light(const wf_chromaticities &c, ImageSpec &spec) {
-    const float xy[8] = {float(c.red[0]),   float(c.red[1]),  float(c.green[0]),
-                         float(c.green[1]), float(c.blue[0]), float(c.blue[1]),
-                         float(c.white[0]), float(c.white[1])};
+void describe_light(const double *chromaticities, ImageSpec &spec) {
+    float xy[8];
+    for (int i = 0; i < 8; i++) xy[i] = float(chromaticities[i]);
     spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), xy);
 }
 
@@ -111,8 +110,8 @@ void describe_exr(const wf_oiio_picture &p, ImageSpec &spec) {
     add_ratio(spec, "weft:time", p.time_s);
     if (*p.raster) spec.attribute("weft:raster", p.raster);
     if (*p.color_space) spec.attribute("weft:colorSpace", p.color_space);
-    if (p.light)
-        describe_light(*p.light, spec);
+    if (p.chromaticities[7] != 0)
+        describe_light(p.chromaticities, spec);
     else
         describe_primaries(p.color_space, spec);
     if (p.field) spec.attribute("weft:field", p.field);
