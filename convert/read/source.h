@@ -71,8 +71,8 @@ const wf_pick *wf_subframe_pick(const wf_subframe *subframe);
 /* What its colors are by what the file says. */
 const wf_file_colors *wf_subframe_colors(const wf_subframe *subframe);
 
-/* Adds what the file is taken for: "part", "layer", "channels", "alpha", "space", "transfer".
- */
+/* Adds what the file is taken for: "part", "layer", "channels", "space", "transfer",
+ * "alpha". */
 void wf_subframe_take(const wf_subframe *subframe, wf_taken_list *list);
 
 /* Tells all layers of all parts of an EXR, deep ones too; of other formats none. */

@@ -60,8 +60,8 @@ void wf_subframe_take(const wf_subframe *s, wf_taken_list *list) {
     wf_take(list, "layer", pick->layer, wf_reason_name(pick->layer_reason));
     wf_take(list, "channels", wf_picture_kind_name(pick->kind),
             wf_reason_name(pick->layer_reason));
-    wf_take(list, "alpha", alphas[s->info.alpha], wf_reason_name(s->alpha_reason));
     wf_file_colors_take(&s->colors, list);
+    wf_take(list, "alpha", alphas[s->info.alpha], wf_reason_name(s->alpha_reason));
 }
 
 weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width_px, int lines,

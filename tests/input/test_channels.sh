@@ -80,6 +80,8 @@ check "info as JSON" exits 0 weft info --json parts.exr
 check "info has the same rows" value "d['files'][0]['input'] == {
     'part': {'value': 'rgba', 'reason': 'file'}, 'layer': {'value': '', 'reason': 'default'},
     'channels': {'value': 'R G B', 'reason': 'default'},
+    'space': {'value': 'lin_rec709', 'reason': 'default'},
+    'transfer': {'value': 'linear', 'reason': 'default'},
     'alpha': {'value': 'premultiplied', 'reason': 'default'}} and
     [l['layer'] for l in d['files'][0]['layers']] == ['N', '', 'diffuse'] and
     d['files'][0]['layers'][1]['channels'] == 'R G B A'"
