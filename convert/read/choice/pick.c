@@ -190,8 +190,15 @@ static int part_called(const choice *c, const char *wanted) {
     return is_number ? (int)number : -1;
 }
 
+static bool any_flat(const choice *c) {
+    for (int p = 0; p < c->part_count; p++)
+        if (c->parts[p].flat) return true;
+    return false;
+}
+
 static bool choose(choice *c) {
     const wf_wish *wish = c->wish;
+    if (!any_flat(c)) return refuse(c, "no flat picture, only deep ones");
     c->part = wish->only_part;
     if (c->part < 0 && wish->part && (c->part = part_called(c, wish->part)) < 0)
         return refuse(c, "no part '%.80s'", wish->part);

@@ -102,7 +102,7 @@ static void without_a_prefix(void **state) {
          "!2 parts hold a picture and no one of them is named as the beauty; choose one with "
          "--part; it has part 0 'left': R G B; part 1 'right': R G B"},
         {"~deep:A B G R Z|flat:B G R", NULL, NULL, "1 - R G B, default file"},
-        {"~deep:A B G R Z", NULL, NULL, "!there is no picture in it"},
+        {"~deep:A B G R Z", NULL, NULL, "!no flat picture, only deep ones; it has R G B A Z"},
         {"crypto_object:B G R|main:B G R", NULL, NULL, "1 - R G B, default file"},
     };
     EXPECT_ALL(rows);
