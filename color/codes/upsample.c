@@ -50,18 +50,28 @@ int wf_upsample_reflected(const wf_upsampler *u, int index, int count, int luma)
     return index;
 }
 
+/* Several sums side by side, so that they can be vectors. */
+enum { BESIDE = 8 };
+
+static void fill_phase(const wf_upsampler *u, int p, const double *chroma, int count,
+                       double *line) {
+    const wf_upsample_phase *phase = &u->phase[p];
+    for (int j = 0; j < count; j += BESIDE) {
+        const double *from = chroma + j + phase->first;
+        double sum[BESIDE] = {0};
+        for (int i = 0; i < phase->count; i++)
+            for (int b = 0; b < BESIDE; b++) sum[b] += phase->tap[i] * from[i + b];
+        for (int b = 0; b < BESIDE && j + b < count; b++)
+            line[(j + b) * u->factor + p] = sum[b];
+    }
+}
+
 void wf_upsample_line(const wf_upsampler *u, double *chroma, int count, double *line,
                       int luma) {
     for (int i = 1; i <= WF_UPSAMPLE_MARGIN; i++) {
         chroma[-i] = chroma[wf_upsample_reflected(u, -i, count, luma)];
         chroma[count - 1 + i] = chroma[wf_upsample_reflected(u, count - 1 + i, count, luma)];
     }
-    for (int p = 0; p < u->factor; p++) {
-        const wf_upsample_phase *phase = &u->phase[p];
-        for (int x = p, j = phase->first; x < luma; x += u->factor, j++) {
-            double sum = 0;
-            for (int i = 0; i < phase->count; i++) sum += phase->tap[i] * chroma[j + i];
-            line[x] = sum;
-        }
-    }
+    for (int p = 0; p < u->factor && p < luma; p++)
+        fill_phase(u, p, chroma, (luma - p + u->factor - 1) / u->factor, line);
 }

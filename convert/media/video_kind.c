@@ -22,3 +22,12 @@ void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *c
     wf_decode_line(&encoding, plane, code, video->frame.plane[plane] + (size_t)line * width,
                    width);
 }
+
+weft_status wf_video_check_memory(const wf_video *v, weft_error *err) {
+    double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
+    if (bytes <= (double)v->options.max_memory_bytes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "%s: frames of %dx%d take %.0f MB, and --max-memory allows %zu MB; allow more", v->path,
+        v->info.width_px, v->info.lines, bytes / (1 << 20), v->options.max_memory_bytes >> 20);
+}

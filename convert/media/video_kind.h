@@ -11,6 +11,7 @@ typedef struct wf_video_options {
     const wf_raster *raster; /* what it is, as the user says; NULL: as the file says */
     size_t max_memory_bytes; /* of one picture */
     bool want_times;         /* of all pictures: info.times is filled where there are any */
+    bool codes_only;         /* wf_video_next is not called */
 } wf_video_options;
 
 /* Where chroma lies among the luma samples that share it: with the first of a line and, where
@@ -92,6 +93,9 @@ struct wf_video {
 /* Takes the codes of a line of a plane: as signals into the frame, or where codes are wanted,
  * there. */
 void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code);
+
+/* Whether a frame of info's size is allowed: measuring takes about twelve floats a pixel. */
+weft_status wf_video_check_memory(const wf_video *video, weft_error *err);
 
 weft_status wf_video_no_memory(const wf_video *video, weft_error *err);
 

@@ -151,16 +151,6 @@ bool wf_video_is(const char *path) {
     return !find_kind(path, &kind, NULL) && (kind == &wf_video_y4m || kind == &wf_video_libav);
 }
 
-/* Measuring takes about twelve floats a pixel. */
-static weft_status check_memory(const wf_video *v, weft_error *err) {
-    double bytes = 12.0 * sizeof(float) * v->info.width_px * v->info.lines;
-    if (bytes <= (double)v->options.max_memory_bytes) return WEFT_OK;
-    return wf_fail(
-        err, WEFT_NO_MEMORY,
-        "%s: frames of %dx%d take %.0f MB, and --max-memory allows %zu MB; allow more", v->path,
-        v->info.width_px, v->info.lines, bytes / (1 << 20), v->options.max_memory_bytes >> 20);
-}
-
 static weft_status make_planes(wf_video *v, weft_error *err) {
     const wf_video_info *info = &v->info;
     for (int p = 0; p < 3; p++) {
@@ -169,6 +159,7 @@ static weft_status make_planes(wf_video *v, weft_error *err) {
         int lines = (info->lines + down - 1) / down;
         v->frame.width_px[p] = width;
         v->frame.lines[p] = lines;
+        if (v->options.codes_only) continue;
         v->frame.plane[p] = calloc((size_t)width * (size_t)lines, sizeof(float));
         if (!v->frame.plane[p]) return wf_video_no_memory(v, err);
     }
@@ -197,7 +188,7 @@ weft_status wf_video_open(const char *path, const wf_video_options *options, wf_
     wf_video_label label = {0};
     status = kind->open(v, &label, err);
     if (!status) status = settle_raster(v, &label, err);
-    if (!status) status = check_memory(v, err);
+    if (!status) status = wf_video_check_memory(v, err);
     if (!status) status = make_planes(v, err);
     if (status)
         wf_video_close(v);

@@ -122,6 +122,8 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     info->tags.range_said = h->range_said;
     info->tags.siting = siting_of(h);
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
+    status = wf_video_check_memory(v, err);
+    if (status) return status;
     info->frames = wf_y4m_count(h, s->file, ftell(s->file));
     *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
                               .interlaced = h->order == 't' || h->order == 'b',

@@ -72,8 +72,8 @@ static void tell_meaning(const wf_run *run) {
 static weft_status open_video(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     wf_video *video;
-    const wf_video_options options = {.max_memory_bytes = run->job->max_memory_bytes,
-                                      .want_times = true};
+    const wf_video_options options = {
+        .max_memory_bytes = run->job->max_memory_bytes, .want_times = true, .codes_only = true};
     weft_status status = wf_video_open(s->path, &options, &video, err);
     if (status) return status;
     s->info = *wf_video_info_of(video);
