@@ -60,13 +60,43 @@ static weft_status refuse_interlaced(const wf_run *run, weft_error *err) {
 }
 
 /* Guesses that can be wrong are told. */
-static void tell_meaning(const wf_run *run) {
+static void tell_guess(const wf_run *run) {
     const video_source *s = run->source;
     const wf_meaning *m = &s->meaning;
-    if (m->tagged) return;
-    wf_job_warn(run->job, "%s: its colors are not all tagged: taken as %s, %s, %s range",
-                s->path, wf_primaries_name(m->primaries), wf_transfer_name(m->transfer),
-                s->info.full_range ? "full" : "narrow");
+    char space[128], curve[24];
+    if (m->tagged || run->job->from) return;
+    wf_file_colors_name(&m->colors, space, sizeof space);
+    wf_job_warn(run->job,
+                "%s: its colors are not all tagged: it is taken as %s (%s, %s range); --from "
+                "says otherwise",
+                s->path, space, wf_decoding_name(&m->colors.decoding, curve),
+                m->full_range ? "full" : "narrow");
+}
+
+/* --from counts whatever the stream says; it is looked up when the output is settled. */
+static weft_status find_meaning(wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    weft_status status = wf_meaning_of(&s->info, s->path, &s->meaning, err);
+    if (status) return status;
+    wf_meaning_take(&s->meaning, &s->info, &run->report->taken);
+    run->setup.decodes = true;
+    if (run->job->from) return WEFT_OK;
+    if (*s->meaning.colors.trouble)
+        return wf_fail(err, WEFT_USAGE, "%s: %s", s->path, s->meaning.colors.trouble);
+    tell_guess(run);
+    run->setup.scene_primaries = &s->meaning.colors.primaries;
+    return WEFT_OK;
+}
+
+static weft_status make_light(wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    const wf_transform *decode = run->job->from ? &run->setup.decode : NULL;
+    if (decode) {
+        wf_take(&run->report->taken, "space", run->job->from, "option");
+        wf_take(&run->report->taken, "transfer", decode->apply ? "encoded" : "linear",
+                "option");
+    }
+    return wf_light_new(&s->info, &s->meaning, decode, &s->light, err);
 }
 
 static weft_status open_video(wf_run *run, weft_error *err) {
@@ -93,12 +123,7 @@ static weft_status open_input(wf_run *run, weft_error *err) {
             s->path, job->inputs[1]);
     weft_status status = open_video(run, err);
     if (!status) status = refuse_interlaced(run, err);
-    if (!status) status = wf_meaning_of(&s->info, s->path, &s->meaning, err);
-    if (!status) status = wf_light_new(&s->info, &s->meaning, &s->light, err);
-    if (status) return status;
-    tell_meaning(run);
-    run->setup.scene_space = s->meaning.space;
-    return WEFT_OK;
+    return status ? status : find_meaning(run, err);
 }
 
 /* ---- Which pictures ---- */
@@ -153,13 +178,20 @@ static weft_status check_pipe(const weft_job *job, const video_source *s, weft_e
 
 /* ---- Time ---- */
 
-static weft_status settle_rate(const weft_job *job, const video_source *s, wf_rational *rate,
-                               weft_error *err) {
-    *rate = job->subframe_rate;
-    if (wf_ratio_given(*rate)) return WEFT_OK;
-    weft_status status = wf_video_rate(&s->info, s->path, rate, err);
-    if (!status) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
-    return status;
+static weft_status settle_rate(wf_run *run, wf_rational *rate, weft_error *err) {
+    const video_source *s = run->source;
+    bool given = wf_ratio_given(run->job->subframe_rate);
+    weft_status status = WEFT_OK;
+    *rate = run->job->subframe_rate;
+    if (!given) status = wf_video_rate(&s->info, s->path, rate, err);
+    if (status) return status;
+    if (!given) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
+    char text[48];
+    int used = snprintf(text, sizeof text, "%" PRId64, rate->num);
+    if (rate->den != 1)
+        snprintf(text + used, sizeof text - (size_t)used, "/%" PRId64, rate->den);
+    wf_take(&run->report->taken, "rate", text, given ? "option" : "file");
+    return WEFT_OK;
 }
 
 static void warn_of_few(const wf_run *run, wf_rational rate) {
@@ -235,9 +267,10 @@ static weft_status count(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     const weft_job *job = run->job;
     wf_rational rate;
-    weft_status status = settle_pictures(job, s, err);
+    weft_status status = make_light(run, err);
+    if (!status) status = settle_pictures(job, s, err);
     if (!status) status = check_pipe(job, s, err);
-    if (!status) status = settle_rate(job, s, &rate, err);
+    if (!status) status = settle_rate(run, &rate, err);
     if (status) return status;
     describe_first(s);
     warn_of_few(run, rate);

@@ -1,7 +1,6 @@
 /* Rows of light from the codes of a picture. */
 #include "convert/video/light.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "color/codes/levels.h"
@@ -14,16 +13,22 @@ struct wf_light {
     bool has_chroma;             /* false: a lone Y */
     double zero[3], per_code[3]; /* signal = (code - zero) per_code */
     wf_upsampler across, down;
+    wf_transform decode; /* apply is NULL where R'G'B' is light */
+    bool owns_decode;
 };
 
 static int parts(int size, int by) {
     return (size + by - 1) / by;
 }
 
-weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning, wf_light **out,
-                         weft_error *err) {
+static weft_status no_memory(weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "no memory for the colors of the video");
+}
+
+weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
+                         const wf_transform *decode, wf_light **out, weft_error *err) {
     wf_light *l = *out = calloc(1, sizeof *l);
-    if (!l) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the colors of the video");
+    if (!l) return no_memory(err);
     const wf_encoding encoding = {
         .ycbcr = meaning->ycbcr, .full_range = info->full_range, .bits = info->bits};
     *l = (wf_light){.meaning = *meaning,
@@ -31,7 +36,9 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning, w
                     .lines = info->lines,
                     .chroma_width_px = parts(info->width_px, info->across),
                     .chroma_lines = parts(info->lines, info->down),
-                    .has_chroma = info->planes == 3};
+                    .has_chroma = info->planes == 3,
+                    .owns_decode = !decode};
+    if (decode) l->decode = *decode;
     for (int p = 0; p < 3; p++) {
         double unit;
         wf_code_scale(&encoding, p, &l->zero[p], &unit);
@@ -40,10 +47,12 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning, w
     /* Lines of chroma lie amid two lines of luma, but for top-left. */
     wf_upsampler_init(&l->across, info->across, info->tags.siting == WF_SITING_CENTER);
     wf_upsampler_init(&l->down, info->down, info->tags.siting != WF_SITING_TOP_LEFT);
-    return WEFT_OK;
+    bool made = decode || wf_decoding_transform(&meaning->colors.decoding, &l->decode);
+    return made ? WEFT_OK : no_memory(err);
 }
 
 void wf_light_free(wf_light *l) {
+    if (l && l->owns_decode && l->decode.free) l->decode.free(l->decode.self);
     free(l);
 }
 
@@ -100,24 +109,8 @@ static void rgb_of_ycbcr(const wf_light *l, double *const signal[3]) {
     }
 }
 
-static double srgb_light(double v) {
-    return v < 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
-static double bt1886_light(double v) {
-    return pow(v, 2.4);
-}
-
-static double linear_light(double v) {
-    return v;
-}
-
-static void decode(const wf_light *l, const double *signal, float *light) {
-    double (*curve)(double) = l->meaning.transfer == 13  ? srgb_light
-                              : l->meaning.transfer == 8 ? linear_light
-                                                         : bt1886_light;
-    for (int x = 0; x < l->width_px; x++)
-        light[x] = (float)copysign(curve(fabs(signal[x])), signal[x]);
+static void round_row(const double *signal, int count, float *out) {
+    for (int x = 0; x < count; x++) out[x] = (float)signal[x];
 }
 
 void wf_light_row(const wf_light *l, const uint16_t *const plane[3], int y, void *scratch,
@@ -132,5 +125,6 @@ void wf_light_row(const wf_light *l, const uint16_t *const plane[3], int y, void
         if (l->has_chroma) chroma_row(l, p, plane[p], y, spare, signal[p]);
     }
     if (l->meaning.ycbcr) rgb_of_ycbcr(l, signal);
-    for (int c = 0; c < 3; c++) decode(l, signal[c], rgb[c]);
+    for (int c = 0; c < 3; c++) round_row(signal[c], l->width_px, rgb[c]);
+    if (l->decode.apply) l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
 }

@@ -4,14 +4,15 @@
 #include "convert/video/meaning.h"
 
 /* Rows of light from the codes of a picture: chroma at every luma sample, R'G'B' by the matrix
- * and the range, light by the transfer, all of it in double but the last step. 1 is reference
- * white, and what lies below black, above white or out of gamut is kept. */
+ * and the range, both in double, and light by the transfer. 1 is reference white, and what lies
+ * below black, above white or out of gamut is kept. */
 typedef struct wf_light wf_light;
 
-/* Light from codes of this kind, planes of the sizes that Rec. ITU-R BT.601's subsampling
- * gives. Borrows nothing; any number of threads may use it. wf_light_free frees it. */
-weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning, wf_light **out,
-                         weft_error *err);
+/* Light from codes of this kind. decode makes light of R'G'B', and is borrowed; NULL: as the
+ * meaning says; without apply R'G'B' is light. Any number of threads may use what is made, and
+ * wf_light_free frees it. */
+weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
+                         const wf_transform *decode, wf_light **out, weft_error *err);
 void wf_light_free(wf_light *light); /* NULL is fine */
 
 /* Bytes of scratch that a row needs, aligned for doubles. */

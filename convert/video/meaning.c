@@ -9,44 +9,16 @@ enum { UNSAID = 2 };
 
 static const struct {
     int code_point;
-    const char *name, *space;
-} primaries[] = {
-    {1, "Rec. 709", "lin_rec709"},
-    {5, "Rec. 601, 625 lines", "lin_rec601-625"},
-    {6, "Rec. 601, 525 lines", "lin_rec601-525"},
-    {7, "Rec. 601, 525 lines", "lin_rec601-525"},
-    {9, "Rec. 2020", "lin_rec2020"},
-    {12, "P3-D65", "lin_p3d65"},
-};
-
-/* Cameras' curves are decoded as their display does. */
-static const struct {
-    int code_point;
     const char *name;
-} transfers[] = {{1, "BT.1886"},  {6, "BT.1886"}, {8, "linear"},   {11, "BT.1886"},
-                 {12, "BT.1886"}, {13, "sRGB"},   {14, "BT.1886"}, {15, "BT.1886"},
-                 {16, "PQ"},      {18, "HLG"}};
-
-static const struct {
-    int code_point;
     double kr, kb;
     int primaries; /* that go with it where nothing is said of these */
-} matrices[] = {{1, 0.2126, 0.0722, 1}, {4, 0.30, 0.11, 6},   {5, 0.299, 0.114, 5},
-                {6, 0.299, 0.114, 6},   {7, 0.212, 0.087, 7}, {9, 0.2627, 0.0593, 9}};
+} matrices[] = {
+    {1, "Rec. 709", 0.2126, 0.0722, 1}, {4, "FCC", 0.30, 0.11, 6},
+    {5, "Rec. 601", 0.299, 0.114, 5},   {6, "Rec. 601", 0.299, 0.114, 6},
+    {7, "SMPTE 240M", 0.212, 0.087, 7}, {9, "Rec. 2020", 0.2627, 0.0593, 9},
+};
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
-
-const char *wf_primaries_name(int code_point) {
-    for (size_t i = 0; i < COUNT(primaries); i++)
-        if (primaries[i].code_point == code_point) return primaries[i].name;
-    return "";
-}
-
-const char *wf_transfer_name(int code_point) {
-    for (size_t i = 0; i < COUNT(transfers); i++)
-        if (transfers[i].code_point == code_point) return transfers[i].name;
-    return "";
-}
 
 /* ---- What is not said ---- */
 
@@ -69,48 +41,61 @@ static int matrix_of_primaries(int of) {
 static void fill_in(wf_meaning *m, const wf_video_info *info) {
     const wf_video_tags *tags = &info->tags;
     bool rgb = !m->ycbcr, matrix_said = !rgb && tags->matrix != UNSAID && tags->matrix != 0;
-    m->transfer_tagged = tags->transfer != UNSAID && tags->transfer != 0;
-    m->space_tagged = tags->primaries != UNSAID || matrix_said;
-    m->tagged = m->transfer_tagged && tags->primaries != UNSAID && (rgb || matrix_said);
-    m->transfer = m->transfer_tagged ? tags->transfer : 1;
-    m->primaries = tags->primaries != UNSAID && tags->primaries ? tags->primaries
-                   : matrix_said ? primaries_of_matrix(tags->matrix, info->lines)
-                                 : usual_primaries(info->lines);
+    bool primaries_said = tags->primaries != UNSAID && tags->primaries != 0;
+    m->colors.transfer_said = tags->transfer != UNSAID && tags->transfer != 0;
+    m->colors.primaries_said = primaries_said || matrix_said;
+    m->tagged = m->colors.transfer_said && primaries_said && (rgb || matrix_said);
+    m->transfer = m->colors.transfer_said ? tags->transfer : 1;
+    m->primaries = primaries_said ? tags->primaries
+                   : matrix_said  ? primaries_of_matrix(tags->matrix, info->lines)
+                                  : usual_primaries(info->lines);
     m->matrix = rgb ? 0 : matrix_said ? tags->matrix : matrix_of_primaries(m->primaries);
+    m->full_range = info->full_range;
 }
 
 /* ---- All of it ---- */
 
-static weft_status refuse(const char *path, const char *what, int code_point, weft_error *err) {
-    return wf_fail(err, WEFT_FAILED,
-                   "%s: its %s is number %d of Rec. ITU-T H.273, which is not read; convert it "
-                   "to Rec. 709 or 2020 first, such as with ffmpeg -i IN -vf "
-                   "zscale=p=709:t=709:m=709 -c:v ffv1 OUT.mkv",
-                   path, what, code_point);
-}
-
-static bool find_matrix(wf_meaning *m) {
+static const char *find_matrix(wf_meaning *m) {
     for (size_t i = 0; i < COUNT(matrices); i++) {
         if (matrices[i].code_point != m->matrix) continue;
         m->kr = matrices[i].kr;
         m->kb = matrices[i].kb;
-        return true;
+        return matrices[i].name;
     }
-    return !m->ycbcr;
+    return m->ycbcr ? NULL : "R'G'B'";
 }
 
-static bool find_space(wf_meaning *m) {
-    for (size_t i = 0; i < COUNT(primaries); i++)
-        if (primaries[i].code_point == m->primaries) m->space = primaries[i].space;
-    return m->space;
+static void find_colors(wf_meaning *m) {
+    const wf_chromaticities *primaries = wf_chromaticities_of_code_point(m->primaries);
+    const char *what = !wf_decoding_of_code_point(m->transfer, &m->colors.decoding) ? "transfer"
+                       : !primaries ? "set of primaries"
+                                    : NULL;
+    m->colors.primaries = primaries ? *primaries : wf_chromaticities_of[WF_PRIMARIES_709];
+    if (what)
+        snprintf(m->colors.trouble, sizeof m->colors.trouble,
+                 "its %s is number %d of Rec. ITU-T H.273, of which weft does not know the "
+                 "light; name its space with --from",
+                 what, *what == 't' ? m->transfer : m->primaries);
 }
 
 weft_status wf_meaning_of(const wf_video_info *info, const char *path, wf_meaning *out,
                           weft_error *err) {
     *out = (wf_meaning){.ycbcr = info->layout == WF_YCBCR};
     fill_in(out, info);
-    if (!find_matrix(out)) return refuse(path, "matrix", out->matrix, err);
-    if (!find_space(out)) return refuse(path, "set of primaries", out->primaries, err);
-    if (!*wf_transfer_name(out->transfer)) return refuse(path, "transfer", out->transfer, err);
-    return WEFT_OK;
+    find_colors(out);
+    if (find_matrix(out)) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its matrix is number %d of Rec. ITU-T H.273, which is not read; convert "
+        "it first, such as with ffmpeg -i IN -vf zscale=m=709 -c:v ffv1 OUT.mkv",
+        path, out->matrix);
+}
+
+void wf_meaning_take(const wf_meaning *m, const wf_video_info *info, wf_taken_list *list) {
+    wf_meaning found = *m;
+    bool matrix_said = m->matrix && m->matrix == info->tags.matrix;
+    wf_file_colors_take(&m->colors, list);
+    wf_take(list, "matrix", find_matrix(&found), matrix_said || !m->ycbcr ? "file" : "default");
+    wf_take(list, "range", m->full_range ? "full" : "narrow",
+            info->tags.range_said ? "file" : "default");
 }

@@ -29,7 +29,7 @@ static weft_status read_all(wf_video *video, weft_error *err) {
     wf_light *light = NULL;
     uint16_t *plane[3] = {NULL};
     weft_status status = wf_meaning_of(info, "y4m", &meaning, err);
-    if (!status) status = wf_light_new(info, &meaning, &light, err);
+    if (!status) status = wf_light_new(info, &meaning, NULL, &light, err);
     for (int p = 0; p < 3; p++) {
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);

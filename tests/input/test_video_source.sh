@@ -56,11 +56,51 @@ check "as of a file" cmp f.y4m p.y4m
 check "a dry run" exits 0 weft convert turns.y4m $box --dry-run -o new.y4m --report -
 check "counts" value "d['plan']['frames'] == 25 and d['input']['listed'] == 100"
 check "untagged" exits 0 weft convert turns.y4m --raster 64x32@25i --overwrite -o o2.y4m
-check "is told" says "601, 525 lines, BT.1886, narrow"
+check "is told" says "rec601-525 (BT.1886, narrow range)"
+check "the report" exits 0 weft convert turns.y4m $box -o o2.y4m --report -
+check "says what was taken" value "d['input']['space'] == {'value': 'rec601-525', 'reason': 'default'} and
+    d['input']['transfer'] == {'value': 'BT.1886', 'reason': 'default'} and
+    d['input']['rate'] == {'value': '100', 'reason': 'file'}"
+check "another space" exits 0 weft convert turns.y4m $box --from lin_rec709 -o f.y4m
+check "is light already" first_code f.y4m 720 25
+check "sRGB" exits 0 weft convert turns.y4m $box --from sRGB -o f.y4m --report -
+check "is an option" value "d['input']['space'] == {'value': 'sRGB', 'reason': 'option'}"
+check "a space that there is not" exits 2 weft convert turns.y4m $box --from nowhere -o f.####.exr
 check "few pictures" exits 0 weft convert turns.y4m --raster 64x32@60i --overwrite -o o2.y4m
 check "are warned of" says "fields will repeat"
 check "a rate of one's own" exits 0 weft convert turns.y4m $box --subframe-rate 200 -o f.y4m
 check "is taken" first_code f.y4m 720 12
+
+# ---- Identity ----
+
+# Codes of all kinds, below black, above white and out of gamut, come back as they were.
+identity()
+{
+    local bits=$1
+    python3 - "$bits" <<'P'
+import random, sys
+bits = int(sys.argv[1])
+random.seed(bits)
+with open("any.y4m", "wb") as f:
+    f.write(b"YUV4MPEG2 W16 H720 F25:1 Ip A1:1 C444%s\n" % (b"" if bits == 8 else b"p%d" % bits))
+    f.write(b"FRAME\n" + b"".join(random.randint(1 << bits - 8, (255 << bits - 8) - 1).to_bytes((bits + 7) // 8, "little")
+                                  for _ in range(3 * 16 * 720)))
+P
+    weft convert any.y4m --raster 16x720@25p --aperture line --temporal-width 0 --chroma 444 --dither none --bits "$bits" \
+        -q --overwrite -o again.y4m
+    python3 - "$bits" <<'P'
+import sys
+size = (int(sys.argv[1]) + 7) // 8
+def codes(name):
+    data = open(name, "rb").read()
+    data = data[data.index(b"FRAME\n") + 6:]
+    return [int.from_bytes(data[i:i + size], "little") for i in range(0, len(data), size)]
+a, b = codes("any.y4m"), codes("again.y4m")
+worst = max(abs(x - y) for x, y in zip(a, b))
+if len(a) != len(b) or worst > 1: sys.exit("%d codes, %d, off by %d" % (len(a), len(b), worst))
+P
+}
+for bits in 8 10 12 16; do check "$bits bits are what they were" identity $bits; done
 
 # ---- Containers ----
 
