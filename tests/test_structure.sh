@@ -92,7 +92,7 @@ convert/finish      : filters/* color/* convert/base convert/job convert/read co
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/plot        : convert/base
-convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/run convert/check convert/plot
+convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/run convert/check convert/plot
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check
 '
 # The public header belongs to no room, and what the build makes of color/weft.ocio is a string.

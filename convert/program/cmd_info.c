@@ -47,19 +47,7 @@ static void tell_picture(wf_facts *facts, const wf_image_info *info) {
 static void tell_taken(wf_facts *facts, const wf_subframe *subframe) {
     wf_taken_list taken = {0};
     wf_subframe_take(subframe, &taken);
-    if (facts->as_json) {
-        wf_json_open(&facts->json, "input", '{');
-        wf_taken_json(&facts->json, &taken);
-        wf_json_close(&facts->json);
-        return;
-    }
-    for (int i = 0; i < taken.count; i++) {
-        char text[192];
-        const char *value = taken.row[i].value;
-        snprintf(text, sizeof text, "%s (%s)", *value ? value : "without a name",
-                 taken.row[i].reason);
-        wf_fact_text(facts, taken.row[i].key, text);
-    }
+    wf_facts_taken(facts, &taken);
 }
 
 /* A layer that the file has: a line, or an object of "layers". */

@@ -40,3 +40,19 @@ void wf_fact_real(wf_facts *facts, const char *key, double value) {
     else
         wf_fact_text(facts, key, text);
 }
+
+void wf_facts_taken(wf_facts *facts, const wf_taken_list *taken) {
+    if (facts->as_json) {
+        wf_json_open(&facts->json, "input", '{');
+        wf_taken_json(&facts->json, taken);
+        wf_json_close(&facts->json);
+        return;
+    }
+    for (int i = 0; i < taken->count; i++) {
+        char text[192];
+        const char *value = taken->row[i].value;
+        snprintf(text, sizeof text, "%s (%s)", *value ? value : "without a name",
+                 taken->row[i].reason);
+        wf_fact_text(facts, taken->row[i].key, text);
+    }
+}

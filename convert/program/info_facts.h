@@ -3,7 +3,8 @@
 #define WF_CONVERT_PROGRAM_CMD_INFO_H
 
 #include "convert/base/json.h"
-#include "convert/weft.h"
+#include "convert/job/taken.h"
+#include "convert/read/video.h"
 #include "filters/base/rational.h"
 
 /* What 'weft info' finds out, told one fact at a time: a line "key value" each on standard
@@ -18,6 +19,9 @@ void wf_fact_int(wf_facts *facts, const char *key, int64_t value);
 void wf_fact_real(wf_facts *facts, const char *key, double value);
 void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between);
 
+/* What the input is taken for: a line "key value (reason)" each, or members of "input". */
+void wf_facts_taken(wf_facts *facts, const wf_taken_list *taken);
+
 /* Tells what the header of a YUV4MPEG2 file says. *is_y4m is false, and nothing is told, if the
  * file is not one. */
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err);
@@ -27,5 +31,9 @@ bool wf_info_is_video(const char *path);
 
 /* Tells what a container says of its video, the first frame of which is decoded. */
 weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err);
+
+/* Tells what video would be taken for as a source, without options. */
+weft_status wf_info_meaning(const wf_video *video, const char *path, wf_facts *facts,
+                            weft_error *err);
 
 #endif

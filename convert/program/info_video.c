@@ -1,9 +1,12 @@
 /* Part of weft info: video in containers, as the libav module reads it. */
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "convert/program/info_facts.h"
-#include "convert/read/video.h"
+#include "convert/video/meaning.h"
+#include "convert/video/rate.h"
 
 bool wf_info_is_video(const char *path) {
     static const char *const endings[] = {".mov", ".mxf", ".mkv", ".mp4", ".avi", ".dv"};
@@ -26,12 +29,31 @@ static void tell_video(const wf_video_info *info, wf_facts *facts) {
     if (info->frames >= 0) wf_fact_int(facts, "frames", info->frames);
 }
 
+weft_status wf_info_meaning(const wf_video *video, const char *path, wf_facts *facts,
+                            weft_error *err) {
+    const wf_video_info *info = wf_video_info_of(video);
+    wf_taken_list taken = {0};
+    wf_meaning meaning;
+    wf_rational rate;
+    weft_status status = wf_meaning_of(info, path, &meaning, err);
+    if (status) return status;
+    wf_meaning_take(&meaning, info, &taken);
+    char text[48] = "unknown";
+    if (!wf_video_rate(info, path, &rate, NULL))
+        snprintf(text, sizeof text, "%" PRId64 "/%" PRId64, rate.num, rate.den);
+    wf_take(&taken, "rate", text, "file");
+    wf_facts_taken(facts, &taken);
+    return WEFT_OK;
+}
+
 weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err) {
-    const wf_video_options options = {.max_memory_bytes = (size_t)2 << 30};
+    const wf_video_options options = {
+        .max_memory_bytes = (size_t)2 << 30, .want_times = true, .codes_only = true};
     wf_video *video = NULL;
     weft_status status = wf_video_open(path, &options, &video, err);
     if (status) return status;
     tell_video(wf_video_info_of(video), facts);
+    status = wf_info_meaning(video, path, facts, err);
     wf_video_close(video);
-    return WEFT_OK;
+    return status;
 }

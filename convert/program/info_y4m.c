@@ -20,6 +20,15 @@ static void tell_header(const wf_y4m *h, int64_t frames, wf_facts *facts) {
     if (frames >= 0) wf_fact_int(facts, "frames", frames);
 }
 
+static weft_status tell_meaning(const char *path, wf_facts *facts, weft_error *err) {
+    const wf_video_options options = {.max_memory_bytes = (size_t)2 << 30, .codes_only = true};
+    wf_video *video = NULL;
+    weft_status status = wf_video_open(path, &options, &video, err);
+    if (!status) status = wf_info_meaning(video, path, facts, err);
+    wf_video_close(video);
+    return status;
+}
+
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err) {
     char line[WF_Y4M_LINE];
     wf_y4m h;
@@ -33,6 +42,7 @@ weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_er
     weft_status status = WEFT_OK;
     if (*is_y4m && end && wf_y4m_parse(line, &h)) {
         tell_header(&h, wf_y4m_count(&h, file, end - line + 1), facts);
+        status = h.known ? tell_meaning(path, facts, err) : WEFT_OK;
     } else if (*is_y4m) {
         status = wf_fail(
             err, WEFT_FAILED,
