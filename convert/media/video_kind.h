@@ -46,6 +46,7 @@ typedef struct wf_video_info {
     /* Where want_times asked for them and the file has them: when each picture is shown, in
      * ticks from any zero, ascending, [frames]. Owned by the video. */
     int64_t *times;
+    int64_t last_ticks; /* how long the last of them is shown; 0: that is not said */
     wf_rational tick_s;
 } wf_video_info;
 

@@ -184,6 +184,12 @@ static weft_status settle_rate(wf_run *run, wf_rational *rate, weft_error *err) 
     weft_status status = WEFT_OK;
     *rate = run->job->subframe_rate;
     if (!given) status = wf_video_rate(&s->info, s->path, rate, err);
+    if (!status && !wf_ratio_given(*rate))
+        status = wf_fail(err, WEFT_FAILED,
+                         "%s: its pictures do not last equally long; make their rate constant, "
+                         "such as with ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give "
+                         "--subframe-rate to take them as equally long",
+                         s->path);
     if (status) return status;
     if (!given) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
     char text[48];

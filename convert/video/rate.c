@@ -68,11 +68,44 @@ weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_ration
     if (!check(path, mean, NULL) && find_usual(info, mean, rate)) return WEFT_OK;
     *rate = mean;
     if (!check(path, mean, NULL) && fits(info, mean, &at)) return WEFT_OK;
-    double at_s = (double)(info->times[at] - info->times[0]) * wf_ratio_value(info->tick_s);
-    return wf_fail(err, WEFT_FAILED,
-                   "%s: its pictures do not last equally long (the first to be out of step is "
-                   "number %" PRId64 ", at %.3f s); make their rate constant, such as with "
-                   "ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give --subframe-rate to "
-                   "take them as equally long",
-                   path, at, at_s);
+    *rate = (wf_rational){0, 0};
+    return WEFT_OK;
+}
+
+/* ---- Pictures that last unequally long ---- */
+
+static weft_status check_order(const wf_video_info *info, const char *path, weft_error *err) {
+    for (int64_t k = 1; k < info->frames; k++) {
+        double at_s = (double)(info->times[k] - info->times[0]) * wf_ratio_value(info->tick_s);
+        if (info->times[k] > info->times[k - 1]) continue;
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: pictures %" PRId64 " and %" PRId64
+                       " are both shown at %.3f s; write its timestamps again, such as with "
+                       "ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give --subframe-rate to "
+                       "take all pictures as equally long",
+                       path, k - 1, k, at_s);
+    }
+    return WEFT_OK;
+}
+
+/* When a picture begins, in ticks; those beyond the last are as far apart as the last lasts. */
+static int64_t begins(const wf_video_info *info, int64_t picture) {
+    int64_t last = info->frames - 1, lasts = info->last_ticks;
+    if (picture <= last) return info->times[picture];
+    if (!lasts) lasts = last ? info->times[last] - info->times[last - 1] : 1;
+    return info->times[last] + lasts;
+}
+
+weft_status wf_video_shown(const wf_video_info *info, const char *path, int64_t first,
+                           int64_t step, int64_t count, wf_rational **times_s,
+                           weft_error *err) {
+    weft_status status = check_order(info, path, err);
+    if (status) return status;
+    *times_s = malloc((size_t)(count + 1) * sizeof **times_s);
+    if (!*times_s) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its times", path);
+    for (int64_t u = 0; u <= count; u++) {
+        int64_t ticks = begins(info, first + u * step) - info->times[first];
+        (*times_s)[u] = wf_ratio_mul(wf_ratio(ticks, 1), info->tick_s);
+    }
+    return WEFT_OK;
 }

@@ -5,9 +5,17 @@
 
 /* Pictures a second of video whose pictures all last equally long: the rate R for which every
  * timestamp lies within one tick of k/R after the first, of the rate that the stream states,
- * rates that are in use, and the mean. Without timestamps it is the rate that is stated.
- * WEFT_FAILED where there is none, or where pictures last unequally long. */
+ * rates that are in use, and the mean. Without timestamps it is the rate that is stated. *rate
+ * is {0, 0} where pictures last unequally long: wf_video_shown says how long. Fails where there
+ * is no rate, or one that cannot be. */
 weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_rational *rate,
                           weft_error *err);
+
+/* When `count` pictures are shown, each step-th from `first` on: times_s[count + 1], seconds
+ * after the first of them; the last is when the last one ends, which is as long as its stream
+ * says, else as the one before. The caller's, free(). WEFT_FAILED where a picture does not come
+ * after the one before it. */
+weft_status wf_video_shown(const wf_video_info *info, const char *path, int64_t first,
+                           int64_t step, int64_t count, wf_rational **times_s, weft_error *err);
 
 #endif

@@ -9,7 +9,8 @@
 typedef struct listing {
     int64_t *time;
     size_t count, capacity;
-    bool all; /* every packet so far had a time */
+    int64_t last, last_ticks; /* the latest time, and how long its packet lasts */
+    bool all;                 /* every packet so far had a time */
 } listing;
 
 static int by_time(const void *left, const void *right) {
@@ -17,13 +18,17 @@ static int by_time(const void *left, const void *right) {
     return (*a > *b) - (*a < *b);
 }
 
-static bool add(listing *l, int64_t time) {
+static bool add(listing *l, int64_t time, int64_t ticks) {
     if (l->count == l->capacity) {
         size_t capacity = l->capacity ? 2 * l->capacity : 1024;
         int64_t *grown = realloc(l->time, capacity * sizeof *grown);
         if (!grown) return false;
         l->time = grown;
         l->capacity = capacity;
+    }
+    if (!l->count || time > l->last) {
+        l->last = time;
+        l->last_ticks = ticks > 0 ? ticks : 0;
     }
     l->time[l->count++] = time;
     l->all &= time != AV_NOPTS_VALUE;
@@ -38,7 +43,7 @@ static bool list_packets(AVFormatContext *format, int stream, listing *l) {
         if ((int)i != stream) format->streams[i]->discard = AVDISCARD_ALL;
     while (fits && av_read_frame(format, packet) >= 0) {
         if (packet->stream_index == stream && !(packet->flags & AV_PKT_FLAG_DISCARD))
-            fits = add(l, packet->pts);
+            fits = add(l, packet->pts, packet->duration);
         av_packet_unref(packet);
     }
     av_packet_free(&packet);
@@ -74,6 +79,7 @@ weft_status wf_libav_times(wf_video *v, int stream, weft_error *err) {
     if (fits && l.count && l.all) {
         qsort(l.time, l.count, sizeof *l.time, by_time);
         v->info.times = l.time;
+        v->info.last_ticks = l.last_ticks;
         l.time = NULL;
     }
     if (fits && l.count) v->info.frames = (int64_t)l.count;
