@@ -126,8 +126,8 @@ static const wf_option_row rows[] = {
 
     ROW(color, VIDEO, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.",
         set_text, TEXT(ocio)),
-    ROW(color, VIDEO, "from", "SPACE", "scene-linear Rec. 709", "Color space of the input.",
-        set_text, TEXT(from)),
+    ROW(color, VIDEO, "from", "SPACE", "as the files say",
+        "Color space of the input, encoded ones too.", set_text, TEXT(from)),
     ROW(color, VIDEO, "to", "SPACE", "the raster's", "Color space of the output.", set_text,
         TEXT(to)),
     ROW(color, VIDEO, "display", "NAME", NULL, "Display of the configuration, instead of --to.",
