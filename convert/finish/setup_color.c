@@ -1,4 +1,5 @@
 /* A job settled: the way from the input's colors to the output's. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,16 +133,42 @@ static void free_chain(void *self) {
     free(c);
 }
 
-/* Light of other primaries becomes ACES2065-1 first. */
-static weft_status mix_first(const wf_chromaticities *primaries, wf_setup *s, weft_error *err) {
-    chain *c = malloc(sizeof *c);
-    if (!c || !wf_builtin_mix(primaries, &wf_chromaticities_of[WF_PRIMARIES_AP0], &c->first)) {
-        free(c);
+/* Has s->transform begin with another, of which it becomes the owner. */
+static weft_status begin_with(wf_transform first, wf_setup *s, weft_error *err) {
+    chain *c = s->transform.apply ? malloc(sizeof *c) : NULL;
+    if (!s->transform.apply) {
+        s->transform = first;
+        return WEFT_OK;
+    }
+    if (!c) {
+        first.free(first.self);
         return no_memory(err);
     }
-    c->second = s->transform;
+    *c = (chain){first, s->transform};
     s->transform = (wf_transform){apply_chain, free_chain, c};
     return WEFT_OK;
+}
+
+/* Light of other primaries becomes ACES2065-1 first. */
+static weft_status mix_first(const wf_chromaticities *primaries, wf_setup *s, weft_error *err) {
+    wf_transform mix;
+    if (!wf_builtin_mix(primaries, &wf_chromaticities_of[WF_PRIMARIES_AP0], &mix))
+        return no_memory(err);
+    return begin_with(mix, s, err);
+}
+
+static void apply_gain(const void *self, float *r, float *g, float *b, size_t width_px) {
+    float gain = *(const float *)self, *const plane[3] = {r, g, b};
+    for (int c = 0; c < 3; c++)
+        for (size_t x = 0; x < width_px; x++) plane[c][x] *= gain;
+}
+
+static weft_status expose(const weft_job *job, wf_setup *s, weft_error *err) {
+    if (!job->exposure.num) return WEFT_OK;
+    float *gain = malloc(sizeof *gain);
+    if (!gain) return no_memory(err);
+    *gain = (float)exp2(wf_ratio_value(job->exposure));
+    return begin_with((wf_transform){apply_gain, free, gain}, s, err);
 }
 
 static weft_status open_ocio(const weft_job *job, const light *l, const char *to, wf_setup *s,
@@ -178,12 +205,11 @@ static bool left_linear(const weft_job *job, const wf_output_kind *kind) {
 }
 
 /* Light is written as it came in, with its primaries. */
-static weft_status leave_linear(const light *l, wf_setup *s) {
+static void leave_linear(const light *l, wf_setup *s) {
     snprintf(s->color_space, sizeof s->color_space, "%s", l->space);
-    if (!l->primaries) return WEFT_OK;
+    if (!l->primaries) return;
     s->primaries = *l->primaries;
     s->output_options.primaries = &s->primaries;
-    return WEFT_OK;
 }
 
 weft_status wf_setup_color(const weft_job *job, wf_setup *s, weft_error *err) {
@@ -194,13 +220,17 @@ weft_status wf_setup_color(const weft_job *job, wf_setup *s, weft_error *err) {
                                  : config || job->display || job->view || job->look};
     weft_status status = find_light(job, s, &l, err);
     if (status) return status;
-    if (linear) return leave_linear(&l, s);
+    if (linear) {
+        leave_linear(&l, s);
+        return expose(job, s, err);
+    }
     if (job->nan_fix == WF_NAN_NONE)
         return wf_fail(err, WEFT_USAGE,
                        "--fix-nan none is for linear EXR output only: %s cannot "
                        "hold NaN; take box3, black or error",
                        job->output);
-    return choose_transform(job, &l, s, err);
+    status = choose_transform(job, &l, s, err);
+    return status ? status : expose(job, s, err);
 }
 
 void wf_setup_color_of_raster(const weft_job *job, wf_setup *s) {

@@ -37,6 +37,7 @@ struct weft_job {
     wf_alpha alpha; /* UNSET: as the files say */
 
     char *ocio, *from, *to, *display, *view, *look;
+    wf_rational exposure; /* stops */
     int bits; /* 0: the output's default */
     wf_code_range range;
     wf_chroma chroma;

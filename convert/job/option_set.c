@@ -105,6 +105,17 @@ weft_status wf_set_ratio(weft_job *job, const wf_option_row *row, const char *va
                                                              : refuse_number(row, value, err);
 }
 
+/* Either way from 0. */
+weft_status wf_set_stops(weft_job *job, const wf_option_row *row, const char *value,
+                         weft_error *err) {
+    bool negative = *value == '-';
+    wf_rational *stops = member(job, row);
+    if (!parse_within(row, value + negative, false, stops))
+        return refuse_number(row, value, err);
+    if (negative) stops->num = -stops->num;
+    return WEFT_OK;
+}
+
 weft_status wf_set_rate(weft_job *job, const wf_option_row *row, const char *value,
                         weft_error *err) {
     return parse_within(row, value, true, member(job, row)) ? WEFT_OK
