@@ -93,14 +93,14 @@ weft_status wf_frame_labels_read(const char *path, wf_rational rate, wf_frame_la
     wf_sequence sequence = {0};
     *out = (wf_frame_labels){.interlace = -1};
     weft_status status = wf_sequence_expand(&name, 1, NULL, &sequence, err);
-    int64_t first = -1;
+    int64_t first = -1, apart = sequence.stepped ? sequence.number_step.num : 1;
     for (size_t i = 0; !status && i < sequence.count; i++) {
         wf_timecode label;
         int interlace;
         if (!sequence.refs[i].path) continue;
         bool has = read_label(&sequence.refs[i], rate, &label, &interlace);
         if (has && first < 0) first = (int64_t)i;
-        if (has) add_label(out, &label, rate, (int64_t)i - first);
+        if (has) add_label(out, &label, rate, ((int64_t)i - first) * apart);
         if (!out->files++) out->interlace = interlace;
         if (interlace != out->interlace) out->interlace = -1;
     }

@@ -36,6 +36,8 @@ typedef struct wf_image_info {
     wf_rational rate;     /* weft:subframeRate, else framesPerSecond; {0,0} if neither */
     wf_rational frames;   /* framesPerSecond, which timecode counts; {0,0} if none */
     wf_rational time_s;   /* weft:time; {0,0} if none */
+    bool counts_files;    /* the rate is weft:subframeRate, of the files there are */
+    char no_rate[64];     /* what it says for a rate and none is: "framesPerSecond -1"; or "" */
     bool has_alpha;       /* alpha is delivered as a fourth channel */
     wf_alpha alpha;       /* how its color is stored; WF_ALPHA_UNSET: the file has none */
     bool alpha_by_file;   /* the file says so itself, and not its format alone */

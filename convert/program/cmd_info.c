@@ -4,8 +4,10 @@
 
 #include "convert/base/fail.h"
 #include "convert/base/pattern.h"
+#include "convert/job/taken.h"
 #include "convert/program/cmd.h"
 #include "convert/program/info_facts.h"
+#include "convert/run/rate.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 
@@ -38,16 +40,18 @@ static void tell_picture(wf_facts *facts, const wf_image_info *info) {
     fact_window(facts, "display_window", info->display);
     fact_window(facts, "data_window", info->data);
     wf_fact_real(facts, "pixel_aspect", info->pixel_aspect);
-    if (wf_ratio_given(info->rate)) wf_fact_ratio(facts, "rate", info->rate, '/');
+    if (wf_ratio_given(info->rate) && facts->as_json)
+        wf_fact_ratio(facts, "rate", info->rate, '/');
     if (wf_ratio_given(info->time_s)) wf_fact_ratio(facts, "time", info->time_s, '/');
     if (*info->timecode) wf_fact_text(facts, "timecode", info->timecode);
 }
 
-/* What is taken of it without options, and why. */
-static void tell_taken(wf_facts *facts, const wf_subframe *subframe) {
-    wf_taken_list taken = {0};
-    wf_subframe_take(subframe, &taken);
-    wf_facts_taken(facts, &taken);
+static void take_rate(const wf_image_info *info, const wf_sequence *sequence,
+                      wf_taken_list *taken) {
+    wf_rational rate;
+    char text[48];
+    if (!wf_rate_of_files("", info, sequence, &rate, NULL))
+        wf_take(taken, "rate", wf_rate_text(rate, text), "file");
 }
 
 /* A layer that the file has: a line, or an object of "layers". */
@@ -76,15 +80,20 @@ static weft_status tell_layers(const char *path, wf_facts *facts, weft_error *er
     return status;
 }
 
-static weft_status tell_file(const char *path, int part, wf_facts *facts, weft_error *err) {
+/* A file of a sequence. */
+static weft_status tell_file(const wf_subframe_ref *ref, const wf_sequence *sequence,
+                             wf_facts *facts, weft_error *err) {
     const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
                                        .max_memory_bytes = (size_t)2 << 30};
     wf_subframe *subframe;
-    tell_layers(path, facts, NULL); /* what is wrong with the file is told when it is opened */
-    weft_status status = wf_subframe_open(path, part, &options, &subframe, err);
+    wf_taken_list taken = {0};
+    tell_layers(ref->path, facts, NULL); /* what is wrong with it is told when it is opened */
+    weft_status status = wf_subframe_open(ref->path, ref->part, &options, &subframe, err);
     if (status) return status;
     tell_picture(facts, wf_subframe_info(subframe));
-    tell_taken(facts, subframe);
+    wf_subframe_take(subframe, &taken);
+    take_rate(wf_subframe_info(subframe), sequence, &taken);
+    wf_facts_taken(facts, &taken);
     const wf_file_colors *colors = wf_subframe_colors(subframe);
     if (*colors->trouble) wf_fact_text(facts, "trouble", colors->trouble);
     if (*colors->warning) wf_fact_text(facts, "warning", colors->warning);
@@ -132,7 +141,8 @@ static weft_status tell_refs(wf_facts *facts, const wf_sequence *sequence, weft_
     (facts->as_json ? list_missing : sum_up_missing)(facts, sequence);
     while (present < last && !sequence->refs[present].path) present++;
     const wf_subframe_ref *ref = &sequence->refs[present];
-    return ref->path ? tell_file(ref->path, ref->part, facts, err) : WEFT_OK;
+    if (*sequence->notice) wf_fact_text(facts, "notice", sequence->notice);
+    return ref->path ? tell_file(ref, sequence, facts, err) : WEFT_OK;
 }
 
 static weft_status tell_sequence(char *path, wf_facts *facts, weft_error *err) {
@@ -154,7 +164,8 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     weft_status status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
     wf_fact_text(facts, "kind", "picture");
-    return tell_file(path, -1, facts, err);
+    const wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
+    return tell_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);
 }
 
 static weft_status tell_as_member(char *path, wf_facts *facts, weft_error *err) {

@@ -2,10 +2,13 @@
 #include "convert/read/selection.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/range.h"
+#include "convert/base/numbers.h"
 
 #define LONGEST_SHOWN 300
 
@@ -18,6 +21,16 @@ void wf_sequence_free(wf_sequence *sequence) {
     for (size_t k = 0; k < sequence->count; k++) free(sequence->refs[k].path);
     free(sequence->refs);
     *sequence = (wf_sequence){0};
+}
+
+void wf_sequence_tell(wf_sequence *sequence, const char *format, ...) {
+    va_list arguments;
+    size_t used = strlen(sequence->notice), size = sizeof sequence->notice;
+    if (used) used += (size_t)snprintf(sequence->notice + used, size - used, "; ");
+    if (used >= size) return;
+    va_start(arguments, format);
+    vsnprintf(sequence->notice + used, size - used, format, arguments);
+    va_end(arguments);
 }
 
 /* ---- Which numbers ---- */
@@ -120,14 +133,29 @@ static weft_status list(const wf_candidates *from, const selection *numbers, con
                    wf_number_text(from->entry[from->count - 1].number, b, sizeof b));
 }
 
-/* *step is how many steps of the files one step of the selection is: the rate that files
- * state is divided by it. */
+/* ---- Steps ---- */
+
+static void tell_step(const wf_candidates *from, wf_rational step, wf_sequence *out) {
+    char text[48], number[3][48];
+    for (size_t i = 0; i < 3; i++)
+        wf_number_text(from->entry[i].number, number[i], sizeof number[i]);
+    out->stepped = true;
+    wf_sequence_tell(out,
+                     "%s: numbers are %s apart (%s, %s, %s ..): the numbers between are taken "
+                     "to be left out on purpose; --frames says otherwise",
+                     wf_path_tail(from->input), wf_number_text(step, text, sizeof text),
+                     number[0], number[1], number[2]);
+}
+
+/* How the selection is spaced, in numbers and in the files' own steps. */
 static weft_status settle_step(wf_rational selected_step, wf_rational natural,
-                               const char *frames, wf_rational *step, weft_error *err) {
-    *step = wf_ratio(1, 1);
+                               const char *frames, wf_sequence *out, weft_error *err) {
+    out->step = wf_ratio(1, 1);
+    out->number_step = natural;
     if (!wf_ratio_given(selected_step)) return WEFT_OK;
-    *step = wf_ratio_div(selected_step, natural);
-    if (wf_ratio_given(*step)) return WEFT_OK;
+    out->number_step = selected_step;
+    out->step = wf_ratio_div(selected_step, natural);
+    if (wf_ratio_given(out->step)) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE,
                    "--frames: '%.200s' has a step that is too long or too fine",
                    frames ? frames : "all");
@@ -139,14 +167,16 @@ weft_status wf_select(const wf_candidates *from, const char *frames, wf_sequence
     weft_status status = check_candidates(from, err);
     if (status) return status;
     selection numbers = {0};
-    wf_rational natural = wf_natural_step(from->entry, from->count);
+    bool stepped;
+    wf_rational natural = wf_number_step(from->entry, from->count, &stepped);
     if (!wf_ratio_given(natural))
         return wf_fail(err, WEFT_FAILED, "%s: the files' numbers have no step in common",
                        wf_path_tail(from->input));
     status = frames ? take_range(from, frames, &numbers, err)
                     : take_all(from, natural, &numbers, err);
     if (!status) status = list(from, &numbers, frames, out, err);
-    if (!status) status = settle_step(numbers.step, natural, frames, &out->step, err);
+    if (!status) status = settle_step(numbers.step, natural, frames, out, err);
+    if (!status && stepped && !frames) tell_step(from, natural, out);
     free(numbers.listed);
     if (status) wf_sequence_free(out);
     return status;

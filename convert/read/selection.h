@@ -14,8 +14,10 @@ typedef struct wf_candidates {
 } wf_candidates;
 
 /* Lists the subframes that the range frames (NULL: from the first number to the last) takes,
- * those without a file included. Two files of one number, a range that meets no file and more
- * than `most` numbers are errors. On failure *out is empty. Looks at no file. */
+ * those without a file included. The step between numbers is wf_number_step's; where that is a
+ * guess, out->notice says so, and a range is taken as it is written. Two files of one number, a
+ * range that meets no file and more than `most` numbers are errors. On failure *out is empty.
+ * Looks at no file. */
 weft_status wf_select(const wf_candidates *from, const char *frames, wf_sequence *out,
                       weft_error *err);
 

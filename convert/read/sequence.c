@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "convert/base/range.h"
+#include "convert/base/numbers.h"
 #include "convert/read/selection.h"
 #include "convert/read/source.h"
 
@@ -122,6 +123,22 @@ static weft_status expand_file(const char *path, const char *frames, wf_sequence
 
 /* ---- A pattern ---- */
 
+/* Where names cut fractions short, numbers are what was meant, but not for a range, which is
+ * written as the names are. */
+static weft_status select_from(wf_numbered_list *list, const char *directory, const char *input,
+                               const char *frames, wf_sequence *out, weft_error *err) {
+    int64_t parts = frames ? 0 : wf_number_parts(list->entry, list->count);
+    if (parts) wf_numbers_round(list->entry, list->count, parts);
+    wf_candidates from = {list->entry, list->count, directory, input, WF_RANGE_MOST};
+    weft_status status = wf_select(&from, frames, out, err);
+    if (!status && parts)
+        wf_sequence_tell(out,
+                         "%s: numbers such as %s are taken for fractions, %" PRId64
+                         " from one whole number to the next",
+                         wf_path_tail(input), wf_base_name(list->entry[1].name), parts);
+    return status;
+}
+
 static weft_status refuse_empty(const char *text, const wf_names *names, weft_error *err) {
     char there[480];
     tell_what_is_there(names, there, sizeof there);
@@ -136,8 +153,7 @@ static weft_status expand_matches(const char *text, const wf_pattern *pattern,
     weft_status status = wf_names_read(openable(directory), &names, err);
     if (!status) status = wf_names_match(&names, pattern, &list, err);
     if (!status && !list.count) status = refuse_empty(text, &names, err);
-    wf_candidates from = candidates_of(&list, directory, text);
-    if (!status) status = wf_select(&from, frames, out, err);
+    if (!status) status = select_from(&list, directory, text, frames, out, err);
     free(list.entry);
     wf_names_free(&names);
     return status;
@@ -154,14 +170,6 @@ static weft_status expand_pattern(const char *text, const wf_pattern *pattern,
 
 /* ---- A directory ---- */
 
-/* Which share of the numbers in its range a group has; 0 for a file alone. */
-static double density(const wf_numbered *entry, size_t count) {
-    wf_rational step = wf_natural_step(entry, count);
-    if (count < 2 || !wf_ratio_given(step)) return 0;
-    int64_t numbers = wf_number_count(entry[0].number, entry[count - 1].number, step);
-    return (double)count / (double)numbers;
-}
-
 /* Finds the only group of more than one file, entries *first .. *end - 1; false if there are
  * several or none. */
 static bool only_group(const wf_numbered_list *list, size_t *first, size_t *end) {
@@ -176,11 +184,6 @@ static bool only_group(const wf_numbered_list *list, size_t *first, size_t *end)
     return found == 1;
 }
 
-static double group_density(const wf_numbered_list *list) {
-    size_t first, end;
-    return only_group(list, &first, &end) ? density(list->entry + first, end - first) : 0;
-}
-
 static const char *only_picture(const wf_names *names) {
     const char *found = NULL;
     for (const char *name = NULL; (name = wf_names_next(names, name));) {
@@ -191,17 +194,41 @@ static const char *only_picture(const wf_names *names) {
     return found;
 }
 
-/* A directory is read one way or the other: in "shot.1001.25.exr" 25 is a sub-frame of 1001
- * where that makes one sequence with fewer gaps, and elsewhere picture 25 of scene 1001. */
-static weft_status read_groups(const wf_names *names, wf_numbered_list *out, weft_error *err) {
-    wf_numbered_list fractions = {0};
-    weft_status status = wf_names_group(names, false, out, err);
-    if (!status) status = wf_names_group(names, true, &fractions, err);
-    double whole = status ? 0 : group_density(out),
-           parts = status ? 0 : group_density(&fractions);
-    bool subframes = parts > whole && parts >= 0.5;
-    free(subframes ? out->entry : fractions.entry);
-    if (subframes) *out = fractions;
+/* One way to read a directory's names. */
+typedef struct reading {
+    wf_numbered_list list;
+    size_t first, end; /* of the only group of several files; 0, 0: there is none */
+    double density;    /* of the group */
+} reading;
+
+static weft_status read_names(const wf_names *names, bool subframes, reading *out,
+                              weft_error *err) {
+    *out = (reading){0};
+    weft_status status = wf_names_group(names, subframes, &out->list, err);
+    if (status) return status;
+    if (!only_group(&out->list, &out->first, &out->end))
+        out->first = out->end = 0;
+    else
+        out->density = wf_number_density(out->list.entry + out->first, out->end - out->first);
+    return WEFT_OK;
+}
+
+/* In "shot.1001.25.exr" 25 is a sub-frame of 1001 where that leaves fewer pictures out, or
+ * takes as many and makes one sequence with fewer gaps; elsewhere it is picture 25 of scene
+ * 1001. */
+static bool reads_better(const reading *subframes, const reading *whole) {
+    size_t taken = subframes->end - subframes->first, others = whole->end - whole->first;
+    if (subframes->density < 0.5) return false;
+    return taken != others ? taken > others : subframes->density > whole->density;
+}
+
+static weft_status read_directory(const wf_names *names, reading *out, weft_error *err) {
+    reading subframes = {0};
+    weft_status status = read_names(names, false, out, err);
+    if (!status) status = read_names(names, true, &subframes, err);
+    bool better = !status && reads_better(&subframes, out);
+    free(better ? out->list.entry : subframes.list.entry);
+    if (better) *out = subframes;
     return status;
 }
 
@@ -222,19 +249,29 @@ static weft_status refuse_groups(const char *input, const wf_names *names,
         wf_path_tail(input), there);
 }
 
+static void tell_left_out(const wf_names *names, const reading *r, const char *input,
+                          wf_sequence *out) {
+    size_t pictures = 0, taken = r->end - r->first;
+    char group[300];
+    for (const char *name = NULL; (name = wf_names_next(names, name));)
+        pictures += wf_name_is_picture(name);
+    if (pictures == taken) return;
+    wf_group_text(&r->list, r->first, r->end, group, sizeof group);
+    wf_sequence_tell(out, "%s: of %zu pictures %zu are taken, which are %s",
+                     wf_path_tail(input), pictures, taken, group);
+}
+
 static weft_status expand_names(const char *input, const wf_names *names, const char *directory,
                                 const char *frames, wf_sequence *out, weft_error *err) {
-    wf_numbered_list groups = {0};
-    size_t first = 0, end = 0;
-    weft_status status = read_groups(names, &groups, err);
-    if (!status && !only_group(&groups, &first, &end))
-        status = refuse_groups(input, names, &groups, err);
+    reading r;
+    weft_status status = read_directory(names, &r, err);
+    if (!status && !r.end) status = refuse_groups(input, names, &r.list, err);
     if (!status) {
-        const wf_numbered_list group = {groups.entry + first, end - first};
-        wf_candidates from = candidates_of(&group, directory, input);
-        status = wf_select(&from, frames, out, err);
+        wf_numbered_list group = {r.list.entry + r.first, r.end - r.first};
+        status = select_from(&group, directory, input, frames, out, err);
     }
-    free(groups.entry);
+    if (!status) tell_left_out(names, &r, input, out);
+    free(r.list.entry);
     return status;
 }
 
@@ -285,8 +322,13 @@ static weft_status check_list(char *const *inputs, size_t count, weft_error *err
     return status;
 }
 
-/* Numbers a list that is one sequence in ascending order. Returns which share of its range
- * it has, or 0 if it is no such sequence. */
+static int by_number(const void *a, const void *b) {
+    const wf_numbered *left = a, *right = b;
+    return wf_number_order(left->number, right->number);
+}
+
+/* Numbers a list whose names differ in their numbers alone, and puts it in their order. Returns
+ * wf_number_density of it, or -1 if it is no such list. */
 static double number_list(char *const *inputs, size_t count, bool subframes,
                           wf_numbered *entry) {
     size_t directory = (size_t)(wf_base_name(inputs[0]) - inputs[0]);
@@ -296,11 +338,11 @@ static double number_list(char *const *inputs, size_t count, bool subframes,
                     !memcmp(inputs[i], inputs[0], directory) &&
                     wf_name_number_of(name, subframes, &entry[i]) &&
                     entry[i].group == entry[0].group;
-        if (!same || (i && wf_number_order(entry[i].number, entry[i - 1].number) <= 0))
-            return 0;
+        if (!same) return -1;
         entry[i].name = inputs[i];
     }
-    return density(entry, count);
+    qsort(entry, count, sizeof *entry, by_number);
+    return wf_number_density(entry, count);
 }
 
 static void count_list(char *const *inputs, size_t count, wf_numbered *entry) {
@@ -314,14 +356,13 @@ static weft_status expand_list(char *const *inputs, size_t count, const char *fr
     if (status) return status;
     wf_numbered_list list = {malloc(count * sizeof *list.entry), count};
     if (!list.entry) return wf_fail(err, WEFT_NO_MEMORY, "out of memory for %zu inputs", count);
-    double parts = number_list(inputs, count, true, list.entry);
     double whole = number_list(inputs, count, false, list.entry);
-    if (parts > whole)
-        number_list(inputs, count, true, list.entry);
-    else if (whole <= 0)
+    double parts = number_list(inputs, count, true, list.entry);
+    if (whole < 0 && parts < 0)
         count_list(inputs, count, list.entry);
-    wf_candidates from = candidates_of(&list, "", inputs[0]);
-    status = wf_select(&from, frames, out, err);
+    else if (parts <= whole)
+        number_list(inputs, count, false, list.entry);
+    status = select_from(&list, "", inputs[0], frames, out, err);
     free(list.entry);
     return status;
 }

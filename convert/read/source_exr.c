@@ -227,21 +227,6 @@ static const exr_attribute_t *attribute(const wf_subframe *s, const char *name,
     return found->type == type ? found : NULL;
 }
 
-/* A rational attribute, or a string that reads as one. */
-static wf_rational rational_of(const wf_subframe *s, const char *name) {
-    const exr_attribute_t *ratio = attribute(s, name, EXR_ATTR_RATIONAL);
-    const exr_attribute_t *text = attribute(s, name, EXR_ATTR_STRING);
-    wf_rational value = {0, 0};
-    if (ratio) return wf_ratio(ratio->rational->num, (int64_t)ratio->rational->denom);
-    if (text) wf_rate_parse(text->string->str, &value);
-    return value;
-}
-
-static wf_rational rate_of(const wf_subframe *s, const char *name) {
-    wf_rational rate = rational_of(s, name);
-    return wf_ratio_given(rate) && rate.num > 0 ? rate : (wf_rational){0, 0};
-}
-
 /* SMPTE 12M binary coded decimal, as OpenEXR packs it. */
 static void read_timecode(wf_subframe *s) {
     const exr_attribute_t *code = attribute(s, "timeCode", EXR_ATTR_TIMECODE);
@@ -315,10 +300,7 @@ static void read_attributes(wf_subframe *s) {
     float aspect = 1;
     exr_get_pixel_aspect_ratio(s->exr, s->part, &aspect);
     s->info.pixel_aspect = aspect > 1e-3f && aspect < 1e3f ? (double)aspect : 1;
-    s->info.frames = rate_of(s, "framesPerSecond");
-    s->info.rate = rate_of(s, "weft:subframeRate");
-    if (!wf_ratio_given(s->info.rate)) s->info.rate = s->info.frames;
-    s->info.time_s = rational_of(s, "weft:time");
+    wf_exr_read_times(s);
     s->info.band_lines = s->layout.chunk_lines;
     read_timecode(s);
     read_raster(s);
@@ -425,7 +407,7 @@ static int by_time(const void *a, const void *b) {
 static int find_timed(wf_subframe *s, timed_part *found, int parts) {
     int count = 0;
     for (s->part = 0; s->part < parts; s->part++) {
-        wf_rational time = rational_of(s, "weft:time");
+        wf_rational time = wf_exr_ratio(s, "weft:time");
         if (wf_ratio_given(time)) found[count++] = (timed_part){time, s->part};
     }
     qsort(found, (size_t)count, sizeof *found, by_time);

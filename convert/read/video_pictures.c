@@ -25,6 +25,11 @@ static weft_status find_files(wf_video *v, weft_error *err) {
                              "%s: number %.9g is missing between the first and the last; "
                              "complete the sequence, or name the files",
                              v->path, wf_ratio_value(p->sequence.refs[k].number));
+    if (!status && p->sequence.stepped)
+        status = wf_fail(err, WEFT_FAILED,
+                         "%s: numbers are %.9g apart from the first to the last; complete the "
+                         "sequence, or name the files",
+                         v->path, wf_ratio_value(p->sequence.number_step));
     return status;
 }
 

@@ -62,6 +62,7 @@ static weft_status open_input(wf_run *run, weft_error *err) {
     weft_status status = wf_sequence_expand(job->inputs, job->input_count, job->frames,
                                             &run->setup.sequence, err);
     if (status) return status;
+    if (*run->setup.sequence.notice) wf_job_warn(job, "%s", run->setup.sequence.notice);
     samples *s = run->source = calloc(1, sizeof *s);
     if (s) s->buffers = calloc((size_t)run->crew.threads, sizeof *s->buffers);
     if (!s || !s->buffers) return wf_fail(err, WEFT_NO_MEMORY, "no memory for samples");

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "convert/run/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/pictures.h"
 #include "convert/run/subframe_check.h"
@@ -73,6 +74,7 @@ static weft_status find_input(wf_run *run, weft_error *err) {
     weft_status status =
         wf_sequence_expand(job->inputs, job->input_count, job->frames, sequence, err);
     if (status) return status;
+    if (*sequence->notice) wf_job_warn(job, "%s", sequence->notice);
     const wf_subframe_ref *ref = first_present(sequence);
     if (!ref)
         return wf_fail(err, WEFT_FAILED, "%s: no subframe of the selection exists",
@@ -109,23 +111,20 @@ static void settle_decoding(wf_run *run) {
 
 /* ---- Rate ---- */
 
-static weft_status settle_rate(const weft_job *job, const wf_run *run, wf_rational *rate,
+static weft_status settle_rate(const weft_job *job, wf_run *run, wf_rational *rate,
                                weft_error *err) {
     const subframes *s = run->source;
+    bool given = wf_ratio_given(job->subframe_rate);
+    char text[48];
+    weft_status status = WEFT_OK;
     *rate = job->subframe_rate;
-    if (!wf_ratio_given(*rate) && wf_ratio_given(s->first.info.rate))
-        *rate = wf_ratio_div(s->first.info.rate, run->setup.sequence.step);
-    if (wf_ratio_given(*rate) && rate->num > 0) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE,
-                   "%s: the files do not say how many subframes a second they are; give "
-                   "--subframe-rate, such as --subframe-rate 240 or 480000/1001",
-                   job->inputs[0]);
-}
-
-static const char *rate_text(wf_rational rate, char text[48]) {
-    int used = snprintf(text, 48, "%" PRId64, rate.num);
-    if (rate.den != 1) snprintf(text + used, 48 - (size_t)used, "/%" PRId64, rate.den);
-    return text;
+    if (!given)
+        status =
+            wf_rate_of_files(job->inputs[0], &s->first.info, &run->setup.sequence, rate, err);
+    if (!status)
+        wf_take(&run->report->taken, "rate", wf_rate_text(*rate, text),
+                given ? "option" : "file");
+    return status;
 }
 
 static bool is_whole(wf_rational r) {
@@ -144,14 +143,14 @@ static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_erro
             wf_job_warn(
                 job,
                 "%s subframes a second run at %s, since %s shows film at %s frames a second",
-                rate_text(given, (char[48]){0}), rate_text(*rate, (char[48]){0}),
-                job->raster.name, rate_text(film, (char[48]){0}));
+                wf_rate_text(given, (char[48]){0}), wf_rate_text(*rate, (char[48]){0}),
+                job->raster.name, wf_rate_text(film, (char[48]){0}));
         return WEFT_OK;
     }
     return wf_fail(err, WEFT_USAGE,
                    "%s: --cadence 2:3 takes film, 24 or 23.976 frames a second of one subframe "
                    "or more, such as 192, and not %s subframes a second",
-                   job->inputs[0], rate_text(given, (char[48]){0}));
+                   job->inputs[0], wf_rate_text(given, (char[48]){0}));
 }
 
 /* ---- Fields ---- */

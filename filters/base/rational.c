@@ -89,7 +89,8 @@ bool wf_ratio_parse(const char *text, wf_rational *out) {
     return true;
 }
 
-bool wf_rate_parse(const char *text, wf_rational *out) {
+/* What 29.97 stands for, if a rate is such an abbreviation, else the rate. */
+static wf_rational broadcast_rate(wf_rational rate) {
     static const struct {
         wf_rational said, meant;
     } abbreviations[] = {
@@ -98,9 +99,36 @@ bool wf_rate_parse(const char *text, wf_rational *out) {
         {{47952, 1000}, {48000, 1001}}, {{5994, 100}, {60000, 1001}},
         {{11988, 100}, {120000, 1001}},
     };
-    if (!wf_ratio_parse(text, out)) return false;
-    if (!strchr(text, '.')) return true;
     for (size_t i = 0; i < sizeof abbreviations / sizeof *abbreviations; i++)
-        if (wf_ratio_equal(*out, abbreviations[i].said)) *out = abbreviations[i].meant;
+        if (wf_ratio_equal(rate, abbreviations[i].said)) return abbreviations[i].meant;
+    return rate;
+}
+
+bool wf_rate_parse(const char *text, wf_rational *out) {
+    if (!wf_ratio_parse(text, out)) return false;
+    if (strchr(text, '.')) *out = broadcast_rate(*out);
     return true;
+}
+
+/* The ratio of the first denominator from low to high that gives the rate to `off` of itself.
+ */
+static wf_rational ratio_near(double rate, int64_t low, int64_t high, double off) {
+    for (int64_t den = low; den <= high; den++) {
+        double num = rate * (double)den, whole = (double)(int64_t)(num + 0.5);
+        if (whole >= 1 && num - whole < off * num && whole - num < off * num)
+            return wf_ratio((int64_t)whole, den);
+    }
+    return not_given;
+}
+
+/* Of rates over 1001 a float holds too few digits to tell them from others with as large a
+ * denominator, and files have them as 29.97, which is off by a millionth. */
+wf_rational wf_rate_near(double rate) {
+    if (!(rate >= 1e-3 && rate <= 1e6)) return not_given;
+    wf_rational found = ratio_near(rate, 1, 50, 1e-7);
+    if (wf_ratio_given(found)) return broadcast_rate(found);
+    found = ratio_near(rate * 1.001, 1, 1, 2e-6);
+    if (wf_ratio_given(found)) return wf_ratio_mul(found, wf_ratio(1000, 1001));
+    found = ratio_near(rate, 51, 1001, 1e-7);
+    return wf_ratio_given(found) ? found : wf_ratio((int64_t)(rate * 1e6 + 0.5), 1000000);
 }

@@ -38,4 +38,9 @@ bool wf_ratio_parse(const char *text, wf_rational *out);
  * 119.88 mean the /1001 rates. */
 bool wf_rate_parse(const char *text, wf_rational *out);
 
+/* The simplest ratio that a rate as a float stands for, to seven digits: 12.5 is 25/2, and the
+ * broadcast abbreviations and 23.976024 mean the /1001 rates. {0, 0} for what is not finite or
+ * not between 1/1000 and 10^6. */
+wf_rational wf_rate_near(double rate);
+
 #endif

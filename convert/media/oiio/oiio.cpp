@@ -216,7 +216,8 @@ void fill_info(const ImageInput &in, const ImageSpec &spec, wf_image_info *info)
     info->frames =
         first_rate(spec, {"framesPerSecond", "dpx:FrameRate", "dpx:TemporalFrameRate"});
     info->rate = first_rate(spec, {"weft:subframeRate"});
-    if (!wf_ratio_given(info->rate)) info->rate = info->frames;
+    info->counts_files = wf_ratio_given(info->rate);
+    if (!info->counts_files) info->rate = info->frames;
     info->time_s = ratio_attribute(spec, "weft:time");
     read_alpha(in, spec, info);
     read_colors(in, spec, &info->colors);

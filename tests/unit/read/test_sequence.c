@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -497,7 +498,7 @@ static void lists_of_files(void **state) {
     char *absent[] = {"b.exr", "d.exr"};
     check(expand_all(gap, 3, NULL), "1:a.0001.exr 2:a.0002.exr 3:- 4:a.0004.exr /1");
     check(expand_all(gap, 3, "1-4x3"), "1:a.0001.exr 4:a.0004.exr /3");
-    check(expand_all(back, 2, NULL), "0:a.0002.exr 1:a.0001.exr /1");
+    check(expand_all(back, 2, NULL), "1:a.0001.exr 2:a.0002.exr /1");
     check(expand_all(mixed, 3, NULL), "0:b.exr 1:a.0002.exr 2:c.exr /1");
     check(expand_all(mixed, 3, "1-2"), "1:a.0002.exr 2:c.exr /1");
     refused_all(twice, 3, NULL, WEFT_USAGE, "b.exr|given twice");
@@ -508,8 +509,167 @@ static void lists_of_files(void **state) {
     touch("s.1.25.exr");
     touch("s.1.5.exr");
     touch("s.1.75.exr");
-    char *fractions[] = {"s.1.25.exr", "s.1.5.exr", "s.1.75.exr"};
+    char *fractions[] = {"s.1.5.exr", "s.1.75.exr", "s.1.25.exr"};
     check(expand_all(fractions, 3, NULL), "1.25:s.1.25.exr 1.5:s.1.5.exr 1.75:s.1.75.exr /1");
+}
+
+/* What a shell makes of s.*.exr. */
+static void lists_in_the_order_of_a_shell(void **state) {
+    (void)state;
+    touch_range("s.%d.exr", 8, 11);
+    char *shell[] = {"s.10.exr", "s.11.exr", "s.8.exr", "s.9.exr"};
+    check(expand_all(shell, 4, NULL), "8:s.8.exr 9:s.9.exr 10:s.10.exr 11:s.11.exr /1");
+    touch("t.1001.5.exr");
+    touch("t.1001.exr");
+    touch("t.1002.5.exr");
+    touch("t.1002.exr");
+    char *halves[] = {"t.1001.5.exr", "t.1001.exr", "t.1002.5.exr", "t.1002.exr"};
+    check(expand_all(halves, 4, NULL),
+          "1001:t.1001.exr 1001.5:t.1001.5.exr 1002:t.1002.exr 1002.5:t.1002.5.exr /1");
+    char *mixed[] = {"s.9.exr", "t.1001.exr", "s.8.exr"};
+    check(expand_all(mixed, 3, NULL), "0:s.9.exr 1:t.1001.exr 2:s.8.exr /1");
+    touch("s.08.exr");
+    char *twice[] = {"s.9.exr", "s.08.exr", "s.8.exr"};
+    refused_all(twice, 3, NULL, WEFT_FAILED, "8 is there twice");
+}
+
+/* ---- What numbers mean ---- */
+
+static void check_told(wf_sequence sequence, const char *wanted, const char *notice) {
+    if (*notice ? !strstr(sequence.notice, notice) : *sequence.notice)
+        fail_msg("not '%s': %s", notice, sequence.notice);
+    check(sequence, wanted);
+}
+
+static void steps_of_numbers(void **state) {
+    (void)state;
+    const int numbers[] = {1, 5, 9, 13};
+    for (int i = 0; i < 3; i++) touch_range("a.%04d.exr", numbers[i], numbers[i]);
+    check_told(expand(".", NULL),
+               "1:./a.0001.exr 2:- 3:- 4:- 5:./a.0005.exr 6:- 7:- 8:- 9:./a.0009.exr /1", "");
+    touch("a.0013.exr");
+    wf_sequence s = expand("a.####.exr", NULL);
+    assert_true(s.stepped && wf_ratio_equal(s.number_step, wf_ratio(4, 1)));
+    check_told(s, "1:a.0001.exr 5:a.0005.exr 9:a.0009.exr 13:a.0013.exr /1",
+               "4 apart (1, 5, 9 ..)");
+    s = expand("a.####.exr", "1-5");
+    assert_true(!s.stepped && wf_ratio_equal(s.number_step, wf_ratio(1, 1)));
+    check_told(s, "1:a.0001.exr 2:- 3:- 4:- 5:a.0005.exr /0.25", "");
+    check_told(expand("a.####.exr", "1-9x4"), "1:a.0001.exr 5:a.0005.exr 9:a.0009.exr /1", "");
+    touch("a.0021.exr");
+    check_told(expand(".", NULL),
+               "1:./a.0001.exr 5:./a.0005.exr 9:./a.0009.exr 13:./a.0013.exr 17:- "
+               "21:./a.0021.exr /1",
+               "4 apart");
+    touch("a.0022.exr");
+    s = expand(".", NULL);
+    assert_int_equal(s.missing, 16);
+    wf_sequence_free(&s);
+}
+
+static void a_directory_of_half_frames(void **state) {
+    (void)state;
+    for (int i = 1001; i < 1003; i++)
+        touch_range("h.%d.exr", i, i), touch_range("h.%d.5.exr", i, i);
+    check_told(expand(".", NULL),
+               "1001:./h.1001.exr 1001.5:./h.1001.5.exr 1002:./h.1002.exr "
+               "1002.5:./h.1002.5.exr /1",
+               "");
+    touch("slate.png");
+    check_told(expand(".", "1001-1002"), "1001:./h.1001.exr 1002:./h.1002.exr /2",
+               "of 5 pictures 4 are taken, which are h.####.#.exr 1001-1002.5");
+}
+
+/* ---- Random sequences against a plain reference ---- */
+
+static uint32_t random_state = 1;
+static int below(int end) {
+    random_state = random_state * 1664525 + 1013904223;
+    return (int)((uint64_t)random_state * (uint64_t)end >> 32);
+}
+
+/* Every whole of 1/parts from first on, written with some decimals, rounded or cut off, must be
+ * read as itself: in doubles, which know nothing of how it is found. */
+static void fractions_of_any_kind(void **state) {
+    (void)state;
+    for (int trial = 0; trial < 60; trial++) {
+        int parts = 2 + below(23), decimals = 1 + below(4), count = 4 + below(40);
+        int first = below(3000), scale = 1;
+        bool cut = below(2), bare = below(2);
+        for (int d = 0; d < decimals; d++) scale *= 10;
+        if (3 * parts > scale) continue;
+        char directory[32], name[96];
+        snprintf(directory, sizeof directory, "d%d", trial);
+        assert_int_equal(mkdir(directory, 0777), 0);
+        for (int i = 0; i < count; i++) {
+            int n = first + i, rest = n % parts;
+            int written = cut ? rest * scale / parts : (2 * rest * scale + parts) / (2 * parts);
+            int whole = n / parts + written / scale;
+            if (bare && !rest)
+                snprintf(name, sizeof name, "%s/f.%d.exr", directory, whole);
+            else
+                snprintf(name, sizeof name, "%s/f.%d.%0*d.exr", directory, whole, decimals,
+                         written % scale);
+            touch(name);
+        }
+        wf_sequence s = expand(directory, NULL);
+        if (s.count != (size_t)count)
+            fail_msg("%s of 1/%d: %zu, not %d", name, parts, s.count, count);
+        assert_int_equal(s.missing, 0);
+        for (int i = 0; i < count; i++)
+            if (fabs(wf_ratio_value(s.refs[i].number) - (double)(first + i) / parts) > 1e-9)
+                fail_msg("%s of 1/%d: %g", s.refs[i].path, parts,
+                         wf_ratio_value(s.refs[i].number));
+        assert_true(fabs(wf_ratio_value(s.number_step) - 1.0 / parts) < 1e-12);
+        wf_sequence_free(&s);
+    }
+}
+
+/* Whole numbers with random gaps, listed in random order: the step is the common gap where
+ * three and more than half are it, else 1; what is not there is missing. */
+static void random_gaps_and_orders(void **state) {
+    (void)state;
+    for (int trial = 0; trial < 200; trial++) {
+        int count = 2 + below(12), step = 1 + below(5), wide = below(4), equal = 0, common = 0;
+        int64_t number[16] = {below(100)};
+        char name[16][32], *list[16];
+        for (int i = 1; i < count; i++)
+            number[i] = number[i - 1] + step * (below(4) < wide ? 1 + below(3) : 1);
+        for (int i = 1; i < count; i++)
+            for (int a = (int)(number[i] - number[i - 1]), b = common; a; common = b)
+                if (b > a)
+                    b -= a;
+                else if (!b)
+                    b = a, a = 0;
+                else
+                    a -= b;
+        for (int i = 1; i < count; i++) equal += number[i] - number[i - 1] == common;
+        int wanted = equal >= 3 && 2 * equal > count - 1 ? common : 1;
+        for (int i = 0; i < count; i++) {
+            snprintf(name[i], sizeof name[i], "r%d.%d.exr", trial, (int)number[i]);
+            touch(name[i]);
+            list[i] = name[i];
+        }
+        for (int i = count - 1; i > 0; i--) {
+            int j = below(i + 1);
+            char *other = list[i];
+            list[i] = list[j];
+            list[j] = other;
+        }
+        wf_sequence s = expand_all(list, (size_t)count, NULL);
+        assert_true(wf_ratio_equal(s.number_step, wf_ratio(wanted, 1)));
+        assert_int_equal(s.count, (number[count - 1] - number[0]) / wanted + 1);
+        assert_int_equal(s.missing, s.count - (size_t)count);
+        for (size_t k = 0, i = 0; k < s.count; k++) {
+            assert_int_equal(s.refs[k].number.num, number[0] + (int64_t)k * wanted);
+            bool there = number[i] == s.refs[k].number.num;
+            if (there)
+                assert_string_equal(s.refs[k].path, name[i++]);
+            else
+                assert_null(s.refs[k].path);
+        }
+        wf_sequence_free(&s);
+    }
 }
 
 /* ---- Parts ---- */
@@ -644,6 +804,11 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_directory_of_one_file, enter, leave),
         cmocka_unit_test_setup_teardown(a_directory_that_cannot_be_read, enter, leave),
         cmocka_unit_test_setup_teardown(lists_of_files, enter, leave),
+        cmocka_unit_test_setup_teardown(lists_in_the_order_of_a_shell, enter, leave),
+        cmocka_unit_test_setup_teardown(steps_of_numbers, enter, leave),
+        cmocka_unit_test_setup_teardown(a_directory_of_half_frames, enter, leave),
+        cmocka_unit_test_setup_teardown(fractions_of_any_kind, enter, leave),
+        cmocka_unit_test_setup_teardown(random_gaps_and_orders, enter, leave),
         cmocka_unit_test_setup_teardown(parts_of_one_file, enter, leave),
         cmocka_unit_test_setup_teardown(long_paths, enter, leave),
         cmocka_unit_test(a_million_files),
