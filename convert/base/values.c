@@ -40,6 +40,7 @@ bool wf_parse_size(const char *text, size_t *bytes) {
 
 /* ---- Numbers in a row ---- */
 
+#define MOST_FRAMES 1000000000
 #define MOST_CHUNKS 1000000
 
 /* Reads a whole number of at most `most` and moves past its digits. */
@@ -58,6 +59,20 @@ bool wf_parse_chunk(const char *text, int *chunk, int *count) {
     if (!read_count(&text, MOST_CHUNKS, &n) || *text || i < 1 || i > n) return false;
     *chunk = i;
     *count = n;
+    return true;
+}
+
+bool wf_parse_span(const char *text, int64_t *first, int64_t *end) {
+    int a, z;
+    if (!read_count(&text, MOST_FRAMES, &a)) return false;
+    z = a;
+    if (*text == '-') {
+        text++;
+        if (!read_count(&text, MOST_FRAMES, &z)) return false;
+    }
+    if (*text || z < a) return false;
+    *first = a;
+    *end = (int64_t)z + 1;
     return true;
 }
 

@@ -2,6 +2,7 @@
 #define WF_CONVERT_BASE_VALUES_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stddef.h>
 
 /* What option values look like. Each function reads the whole of text or returns false and
@@ -13,6 +14,9 @@ bool wf_parse_size(const char *text, size_t *bytes);
 
 /* "2/4": 1 <= chunk <= count <= 10^6; not reduced. */
 bool wf_parse_chunk(const char *text, int *chunk, int *count);
+
+/* "10-19" or "10": first <= n < end of frames counted from 0, at most 10^9 of them. */
+bool wf_parse_span(const char *text, int64_t *first, int64_t *end);
 
 /* "4x4x8": samples a pixel, a line and a field, each 1 .. 64. */
 bool wf_parse_oversample(const char *text, int *across, int *down, int *times);

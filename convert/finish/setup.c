@@ -2,6 +2,7 @@
  * what its kind takes. */
 #include "convert/finish/setup.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -145,6 +146,17 @@ void wf_setup_frames(const weft_job *job, wf_setup *s, int64_t first, int64_t en
     s->first_frame = first + frames * (job->chunk - 1) / job->chunk_count;
     s->end_frame = first + frames * job->chunk / job->chunk_count;
     wf_setup_tell_frames(s);
+}
+
+weft_status wf_setup_chosen_frames(const weft_job *job, wf_setup *s, int64_t given,
+                                   weft_error *err) {
+    int64_t end = job->output_end ? job->output_end : given;
+    wf_setup_frames(job, s, job->output_first, end);
+    if (end <= given) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--output-frames: there is no frame %" PRId64
+                   "; %s gives frames 0 to %" PRId64,
+                   end - 1, job->inputs[0], given - 1);
 }
 
 wf_rational wf_setup_width(const weft_job *job) {

@@ -45,6 +45,11 @@ weft_status wf_setup_video(const weft_job *job, wf_setup *setup, weft_error *err
  * first_frame and end_frame, and the sink is told of them. */
 void wf_setup_frames(const weft_job *job, wf_setup *setup, int64_t first, int64_t end);
 
+/* The same of the job's output-frames among those that the input gives, from 0 on; WEFT_USAGE
+ * where they are not among them. */
+weft_status wf_setup_chosen_frames(const weft_job *job, wf_setup *setup, int64_t given,
+                                   weft_error *err);
+
 /* Tells the sink which frames there will be: first_frame to end_frame. */
 void wf_setup_tell_frames(wf_setup *setup);
 

@@ -26,8 +26,9 @@ struct weft_job {
     wf_rational scan_skew;
     wf_cadence cadence;
 
-    char *frames;              /* range of the selection; NULL: all */
-    wf_rational subframe_rate; /* {0,0}: from the files */
+    char *frames;                     /* range of the selection; NULL: all */
+    int64_t output_first, output_end; /* frames to make; 0, 0: all that the input gives */
+    wf_rational subframe_rate;        /* {0,0}: from the files */
     bool subframe_time_center;
     wf_fit fit;
     wf_rational input_par; /* {0,0}: from the files */

@@ -244,6 +244,13 @@ weft_status wf_set_frames(weft_job *job, const wf_option_row *row, const char *v
     return status ? status : wf_set_text(job, row, value, err);
 }
 
+weft_status wf_set_output_frames(weft_job *job, const wf_option_row *row, const char *value,
+                                 weft_error *err) {
+    if (wf_parse_span(value, &job->output_first, &job->output_end)) return WEFT_OK;
+    return refuse(row, value, "A-B, the first and the last frame counted from 0, such as 10-19",
+                  err);
+}
+
 weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {
     char rest;

@@ -79,6 +79,10 @@ static const wf_option_row rows[] = {
     ROW(input, JOBS, "frames", "A-BxS", "all",
         "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",
         set_frames, TEXT(frames)),
+    ROW(input, CONVERT, "output-frames", "A-B", "all",
+        "Which of the frames that the input gives to make: 0-24. Subframes keep their times, "
+        "counted from the first there is.",
+        set_output_frames),
     ROW(input, CONVERT, "layer", "NAME", "the beauty",
         "EXR layer to take: NAME.R, NAME.G, NAME.B, or R, G, B of a part of that name.",
         set_text, TEXT(layer)),

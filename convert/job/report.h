@@ -28,7 +28,7 @@ typedef struct wf_report {
     int64_t frames, fields;  /* written by this run */
 
     int64_t listed, opened; /* subframes selected, missing ones included; files opened */
-    wf_rational *missing;   /* [missing_count] numbers absent from the selection */
+    wf_rational *missing;   /* [missing_count] numbers that are needed and absent */
     size_t missing_count;
     int64_t chunks_decoded, chunks_reused, nan_fixed;
     wf_taken_list taken; /* what the input was taken for: members of "input" */

@@ -7,7 +7,7 @@
 #include "convert/job/taken.h"
 #include "convert/program/cmd.h"
 #include "convert/program/info_facts.h"
-#include "convert/run/rate.h"
+#include "convert/read/rate.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 

@@ -100,4 +100,9 @@ wf_source_counts wf_reader_counts(const wf_reader *reader);
 weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
                                   wf_rational **time_of, weft_error *err);
 
+/* weft:time of a file, or of one part of it; of a file whose part is -1 that of the first part
+ * that has one. {0, 0} where it has none, and for other formats than EXR. Reads headers only.
+ */
+weft_status wf_source_time(const char *path, int part, wf_rational *time_s, weft_error *err);
+
 #endif

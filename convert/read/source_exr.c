@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/media/exr_times.h"
 #include "convert/read/choice/exr_parts.h"
 
 /* Enough for any picture; what a file really may cost is checked against its own length and
@@ -300,7 +301,7 @@ static void read_attributes(wf_subframe *s) {
     float aspect = 1;
     exr_get_pixel_aspect_ratio(s->exr, s->part, &aspect);
     s->info.pixel_aspect = aspect > 1e-3f && aspect < 1e3f ? (double)aspect : 1;
-    wf_exr_read_times(s);
+    wf_exr_read_times(s->exr, s->part, &s->info);
     s->info.band_lines = s->layout.chunk_lines;
     read_timecode(s);
     read_raster(s);
@@ -407,7 +408,7 @@ static int by_time(const void *a, const void *b) {
 static int find_timed(wf_subframe *s, timed_part *found, int parts) {
     int count = 0;
     for (s->part = 0; s->part < parts; s->part++) {
-        wf_rational time = wf_exr_ratio(s, "weft:time");
+        wf_rational time = wf_exr_ratio(s->exr, s->part, "weft:time");
         if (wf_ratio_given(time)) found[count++] = (timed_part){time, s->part};
     }
     qsort(found, (size_t)count, sizeof *found, by_time);
@@ -445,6 +446,25 @@ weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
     if (!status && parts > 1) *count = find_timed(s, found, parts);
     if (!status && *count && part_of) status = hand_out(found, *count, part_of, time_of, err);
     free(found);
+    wf_subframe_close(s);
+    return status;
+}
+
+weft_status wf_source_time(const char *path, int part, wf_rational *time_s, weft_error *err) {
+    wf_subframe *s = calloc(1, sizeof *s);
+    int parts = 0;
+    *time_s = (wf_rational){0, 0};
+    if (!s || !(s->path = strdup(path))) {
+        free(s);
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
+    }
+    weft_status status = wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
+    if (s->exr) exr_get_count(s->exr, &parts);
+    for (s->part = part < 0 ? 0 : part; s->part < parts && !wf_ratio_given(*time_s);
+         s->part++) {
+        *time_s = wf_exr_ratio(s->exr, s->part, "weft:time");
+        if (part >= 0) break;
+    }
     wf_subframe_close(s);
     return status;
 }

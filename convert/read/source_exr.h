@@ -29,14 +29,4 @@ bool wf_is_exr(const char *path);
 /* What OpenEXRCore's status means, for people. */
 const char *wf_exr_trouble(exr_result_t result);
 
-/* ---- Rates and times (exr_times.c) ---- */
-
-/* An attribute of subframe->part as a ratio: a rational, two whole numbers, a whole number, a
- * float or double (wf_rate_near, of either sign), or text that reads as one, with or without
- * "fps". {0, 0}: it is not there, or no ratio. */
-wf_rational wf_exr_ratio(const wf_subframe *subframe, const char *name);
-
-/* Fills rate, frames, time_s, counts_files and no_rate of subframe->info. */
-void wf_exr_read_times(wf_subframe *subframe);
-
 #endif

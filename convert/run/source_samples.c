@@ -83,9 +83,8 @@ static void close_input(wf_run *run) {
 /* ---- Which files a field reaches ---- */
 
 static weft_status count(wf_run *run, weft_error *err) {
-    (void)err;
-    wf_setup_frames(run->job, &run->setup, 0, (int64_t)run->setup.sequence.count);
-    return WEFT_OK;
+    return wf_setup_chosen_frames(run->job, &run->setup, (int64_t)run->setup.sequence.count,
+                                  err);
 }
 
 /* Instants in a frame: those of its two fields, or one. */

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "convert/run/rate.h"
+#include "convert/read/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/pictures.h"
 #include "convert/run/subframe_check.h"
@@ -13,6 +13,10 @@
 typedef struct subframes {
     wf_source_options options;
     wf_first_subframe first; /* that is there */
+    wf_shown shown;
+    wf_rational *edges;   /* of the times that pictures are shown at; NULL: they have a rate */
+    wf_rational *missing; /* numbers that fields of this chunk need and that have no file */
+    size_t missing_count;
     wf_resampler *resampler;
     int64_t end_field; /* of all frames, whatever the chunk */
 } subframes;
@@ -23,7 +27,11 @@ static bool takes(const weft_job *job) {
 
 static void close_input(wf_run *run) {
     subframes *s = run->source;
-    if (s) wf_resampler_free(s->resampler);
+    if (!s) return;
+    wf_resampler_free(s->resampler);
+    wf_shown_free(&s->shown);
+    free(s->edges);
+    free(s->missing);
     free(s);
     run->source = NULL;
 }
@@ -74,7 +82,6 @@ static weft_status find_input(wf_run *run, weft_error *err) {
     weft_status status =
         wf_sequence_expand(job->inputs, job->input_count, job->frames, sequence, err);
     if (status) return status;
-    if (*sequence->notice) wf_job_warn(job, "%s", sequence->notice);
     const wf_subframe_ref *ref = first_present(sequence);
     if (!ref)
         return wf_fail(err, WEFT_FAILED, "%s: no subframe of the selection exists",
@@ -111,20 +118,19 @@ static void settle_decoding(wf_run *run) {
 
 /* ---- Rate ---- */
 
-static weft_status settle_rate(const weft_job *job, wf_run *run, wf_rational *rate,
-                               weft_error *err) {
-    const subframes *s = run->source;
+static weft_status settle_rate(const weft_job *job, wf_run *run, weft_error *err) {
+    subframes *s = run->source;
     bool given = wf_ratio_given(job->subframe_rate);
-    char text[48];
+    char text[48] = "irregular";
     weft_status status = WEFT_OK;
-    *rate = job->subframe_rate;
+    s->shown.rate = job->subframe_rate;
     if (!given)
-        status =
-            wf_rate_of_files(job->inputs[0], &s->first.info, &run->setup.sequence, rate, err);
-    if (!status)
-        wf_take(&run->report->taken, "rate", wf_rate_text(*rate, text),
-                given ? "option" : "file");
-    return status;
+        status = wf_shown_by_files(job->inputs[0], &s->first.info, &run->setup.sequence,
+                                   &s->shown, err);
+    if (status) return status;
+    if (!s->shown.times_s) wf_rate_text(s->shown.rate, text);
+    wf_take(&run->report->taken, "rate", text, given ? "option" : "file");
+    return WEFT_OK;
 }
 
 static bool is_whole(wf_rational r) {
@@ -135,6 +141,11 @@ static bool is_whole(wf_rational r) {
  * tenth of a percent slower, with no frame lost. */
 static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_error *err) {
     wf_rational film = wf_raster_film_rate(&job->raster), given = *rate;
+    if (!wf_ratio_given(given))
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: --cadence 2:3 takes film at an even rate, and its weft:time are "
+                       "irregular",
+                       job->inputs[0]);
     const wf_rational speeds[] = {{1, 1}, {1000, 1001}, {1001, 1000}};
     for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
         *rate = wf_ratio_mul(given, speeds[i]);
@@ -153,6 +164,24 @@ static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_erro
                    job->inputs[0], wf_rate_text(given, (char[48]){0}));
 }
 
+/* Pictures that last longer than a field are seen again by the next one. */
+static void warn_of_few(const wf_run *run) {
+    const subframes *s = run->source;
+    const weft_job *job = run->job;
+    wf_rational period = wf_raster_field_period(&job->raster);
+    double count = (double)run->setup.sequence.count, rate = wf_ratio_value(s->shown.rate);
+    if (s->shown.times_s)
+        rate = count / wf_ratio_value(wf_ratio_difference(
+                           s->shown.times_s[run->setup.sequence.count], s->shown.times_s[0]));
+    if (rate * wf_ratio_value(period) > 1 - 1e-9) return;
+    wf_job_warn(job, "%s: %.6g pictures a second are fewer than the %.6g %s of %s: %s repeat",
+                job->inputs[0], rate, 1 / wf_ratio_value(period),
+                job->raster.pulldown                ? "film frames"
+                : job->raster.scan == WF_INTERLACED ? "fields"
+                                                    : "frames",
+                job->raster.name, job->raster.scan == WF_INTERLACED ? "fields" : "frames");
+}
+
 /* ---- Fields ---- */
 
 /* Bands follow the chunks of the first file; others may differ and cost a little more. Whole
@@ -164,14 +193,15 @@ static void choose_bands(const subframes *s, wf_resample_desc *desc) {
     desc->band_origin = s->first.info.data.y0 - s->first.info.display.y0;
 }
 
-static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
+static wf_resample_desc describe_fields(const wf_run *run) {
     const weft_job *job = run->job;
     const subframes *s = run->source;
     wf_resample_desc desc = {
         .raster = &job->raster,
         .aperture = job->aperture,
         .timing = {.raster = &job->raster,
-                   .subframe_rate = rate,
+                   .subframe_rate = s->shown.rate,
+                   .edges = s->edges,
                    .subframe_center = job->subframe_time_center,
                    .subframes = (int64_t)run->setup.sequence.count,
                    .width = wf_setup_width(job),
@@ -180,24 +210,54 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
         .channels = s->options.want_alpha ? 4 : 3, /* later files may have alpha */
         .background = {job->background[0], job->background[1], job->background[2]},
     };
+    if (s->edges)
+        desc.timing.shown = wf_ratio_div(
+            wf_ratio_difference(s->shown.times_s[desc.timing.subframes], s->shown.times_s[0]),
+            wf_raster_field_period(&job->raster));
     wf_fit_picture(job, &s->first.info, &desc.x, &desc.y);
     choose_bands(s, &desc);
     return desc;
 }
 
-static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err) {
+static weft_status make_edges(const wf_run *run, weft_error *err) {
     subframes *s = run->source;
-    const wf_resample_desc desc = describe_fields(run, rate);
-    int64_t frames = wf_timing_frames(&desc.timing);
+    const weft_job *job = run->job;
+    size_t count = run->setup.sequence.count;
     char why[512];
-    if (frames < 1)
-        return wf_fail(
-            err, WEFT_FAILED,
-            "%s: %zu subframes at %" PRId64 "/%" PRId64
-            " a second do not fill one frame of %s; select more, or check --subframe-rate",
-            run->job->inputs[0], run->setup.sequence.count, rate.num, rate.den,
-            run->job->raster.name);
-    wf_setup_frames(run->job, &run->setup, 0, frames);
+    if (!s->shown.times_s) return WEFT_OK;
+    s->edges = calloc(count + 1, sizeof *s->edges);
+    if (!s->edges) return wf_fail(err, WEFT_NO_MEMORY, "no memory for times");
+    if (wf_timing_edges(&job->raster, s->shown.times_s, (int64_t)count,
+                        job->subframe_time_center, s->edges, why, sizeof why))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED, "%s: %s", job->inputs[0], why);
+}
+
+static weft_status refuse_few(const wf_run *run, weft_error *err) {
+    const subframes *s = run->source;
+    char text[48] = "their times";
+    if (!s->edges) wf_rate_text(s->shown.rate, text);
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: %zu subframes at %s%s do not fill one frame of %s; select more, or check "
+        "--subframe-rate",
+        run->job->inputs[0], run->setup.sequence.count, text, s->edges ? "" : " a second",
+        run->job->raster.name);
+}
+
+static weft_status settle_fields(wf_run *run, weft_error *err) {
+    subframes *s = run->source;
+    char why[512];
+    wf_timing timing;
+    weft_status status = make_edges(run, err);
+    if (status) return status;
+    const wf_resample_desc desc = describe_fields(run);
+    if (!wf_timing_init(&timing, &desc.timing, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
+    int64_t frames = wf_timing_frames(&desc.timing);
+    if (frames < 1) return refuse_few(run, err);
+    status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
+    if (status) return status;
     s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
     if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
         return wf_fail(err, WEFT_FAILED, "%s", why);
@@ -205,14 +265,18 @@ static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err)
 }
 
 static weft_status count(wf_run *run, weft_error *err) {
-    const subframes *s = run->source;
-    wf_rational rate = {0, 0};
+    subframes *s = run->source;
     settle_decoding(run);
-    weft_status status = settle_rate(run->job, run, &rate, err);
-    if (!status && run->job->raster.pulldown) status = settle_film(run->job, &rate, err);
-    if (!status) status = settle_fields(run, rate, err);
-    if (!status) wf_start_timecode(run->job, &run->setup, &s->first.info);
-    return status;
+    weft_status status = settle_rate(run->job, run, err);
+    if (!status && run->job->raster.pulldown)
+        status = settle_film(run->job, &s->shown.rate, err);
+    if (!status && *run->setup.sequence.notice)
+        wf_job_warn(run->job, "%s", run->setup.sequence.notice);
+    if (!status) status = settle_fields(run, err);
+    if (status) return status;
+    warn_of_few(run);
+    wf_start_timecode(run->job, &run->setup, &s->first.info);
+    return WEFT_OK;
 }
 
 static wf_needs needs(const wf_run *run, int64_t field) {
@@ -230,28 +294,41 @@ static void number_text(wf_rational number, char *text, size_t size) {
         snprintf(text, size, "%.9g", wf_ratio_value(number));
 }
 
-/* How many missing subframes the fields of this chunk need; *first is the first of them. */
-static size_t count_missing(const wf_run *run, int64_t *first) {
+/* How many missing subframes the fields of this chunk need; their places go to k, of which
+ * there is space for sequence.missing. */
+static size_t find_missing(const wf_run *run, int64_t *k) {
     const wf_sequence *sequence = &run->setup.sequence;
     int per_frame = wf_raster_fields_per_frame(&run->job->raster);
     size_t missing = 0;
-    int64_t k = 0, end = run->setup.end_frame * per_frame;
+    int64_t next = 0, end = run->setup.end_frame * per_frame;
     for (int64_t n = run->setup.first_frame * per_frame; sequence->missing && n < end; n++) {
         wf_needs of = needs(run, n);
-        for (k = k > of.first ? k : of.first; k < of.end; k++)
-            if (!sequence->refs[k].path && !missing++) *first = k;
+        for (next = next > of.first ? next : of.first; next < of.end; next++)
+            if (!sequence->refs[next].path) k[missing++] = next;
     }
     return missing;
+}
+
+static weft_status list_missing(wf_run *run, weft_error *err) {
+    const wf_sequence *sequence = &run->setup.sequence;
+    subframes *s = run->source;
+    int64_t *k = malloc((sequence->missing + 1) * sizeof *k);
+    s->missing = malloc((sequence->missing + 1) * sizeof *s->missing);
+    if (k && s->missing) s->missing_count = find_missing(run, k);
+    for (size_t n = 0; n < s->missing_count; n++) s->missing[n] = sequence->refs[k[n]].number;
+    free(k);
+    return k && s->missing ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for numbers");
 }
 
 /* Faces what is missing: it is an error, or people are told what takes its place. */
 static weft_status start(wf_run *run, weft_error *err) {
     const weft_job *job = run->job;
-    int64_t first = 0;
+    const subframes *s = run->source;
     char number[32];
-    size_t missing = wf_frames_all_there(job, &run->setup) ? 0 : count_missing(run, &first);
-    if (!missing) return WEFT_OK;
-    number_text(run->setup.sequence.refs[first].number, number, sizeof number);
+    weft_status status = list_missing(run, err);
+    size_t missing = s->missing_count;
+    if (status || !missing || wf_frames_all_there(job, &run->setup)) return status;
+    number_text(s->missing[0], number, sizeof number);
     if (job->on_missing == WF_MISSING_ERROR)
         return wf_fail(
             err, WEFT_FAILED,
@@ -323,20 +400,12 @@ static int64_t opens(const wf_run *run, const wf_units *units, bool *needed) {
 
 /* ---- Report ---- */
 
-/* The numbers of the selection that have no file. */
-static wf_rational *list_missing(const wf_sequence *sequence) {
-    wf_rational *numbers = malloc((sequence->missing + 1) * sizeof *numbers);
-    size_t n = 0;
-    for (size_t k = 0; numbers && k < sequence->count; k++)
-        if (!sequence->refs[k].path) numbers[n++] = sequence->refs[k].number;
-    return numbers;
-}
-
 static void tell(const wf_run *run, wf_report *report) {
-    const wf_sequence *sequence = &run->setup.sequence;
-    report->listed = (int64_t)sequence->count;
-    report->missing = list_missing(sequence);
-    report->missing_count = report->missing ? sequence->missing : 0;
+    subframes *s = run->source;
+    report->listed = (int64_t)run->setup.sequence.count;
+    report->missing = s ? s->missing : NULL;
+    report->missing_count = s ? s->missing_count : 0;
+    if (s) s->missing = NULL; /* the report's now */
     if (!run->finished || !report->nan_fixed) return;
     report->degraded = true;
     wf_job_warn(run->job, "%lld pixels of the input were NaN or infinite: %s",

@@ -45,6 +45,14 @@ bool wf_ratio_equal(wf_rational a, wf_rational b) {
     return (wide)a.num * b.den == (wide)b.num * a.den && (a.den == 0) == (b.den == 0);
 }
 
+wf_rational wf_ratio_sum(wf_rational a, wf_rational b) {
+    return reduced((wide)a.num * b.den + (wide)b.num * a.den, (wide)a.den * b.den);
+}
+
+wf_rational wf_ratio_difference(wf_rational a, wf_rational b) {
+    return reduced((wide)a.num * b.den - (wide)b.num * a.den, (wide)a.den * b.den);
+}
+
 wf_rational wf_ratio_mul(wf_rational a, wf_rational b) {
     return reduced((wide)a.num * b.num, (wide)a.den * b.den);
 }

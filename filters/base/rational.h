@@ -23,6 +23,10 @@ double wf_ratio_value(wf_rational r);
 bool wf_ratio_given(wf_rational r);
 bool wf_ratio_equal(wf_rational a, wf_rational b);
 
+/* a + b and a - b; {0, 0} where one is not given or the result does not fit in 64 bits. */
+wf_rational wf_ratio_sum(wf_rational a, wf_rational b);
+wf_rational wf_ratio_difference(wf_rational a, wf_rational b);
+
 /* a * b and a / b; {0, 0} where the result does not fit in 64 bits or b is zero. */
 wf_rational wf_ratio_mul(wf_rational a, wf_rational b);
 wf_rational wf_ratio_div(wf_rational a, wf_rational b);

@@ -22,7 +22,11 @@ typedef struct wf_timing_desc {
     wf_rational subframe_rate; /* of the selected subframes, a second */
     bool subframe_center;      /* cells lie about k/R instead of after it */
     int64_t subframes;         /* in the sequence, missing ones included */
-    wf_rational width;         /* tau, field periods; under pulldown film frames */
+    /* Where cells have lengths of their own, instead of the rate: wf_timing_edges's, borrowed,
+     * and how long the sequence is shown, in field periods. NULL: a constant rate. */
+    const wf_rational *edges;
+    wf_rational shown;
+    wf_rational width; /* tau, field periods; under pulldown film frames */
     wf_position position;
     wf_rational skew; /* 0..1 */
 } wf_timing_desc;
@@ -30,12 +34,14 @@ typedef struct wf_timing_desc {
 __extension__ typedef __int128 wf_ticks;
 
 typedef struct wf_timing {
-    wf_ticks tick_rate;    /* ticks a field period */
-    wf_ticks cell;         /* a subframe's cell */
-    wf_ticks cell_zero;    /* where cell 0 begins */
-    wf_ticks width, opens; /* the window, and where it opens from the field's instant */
-    wf_ticks skew_line;    /* delay of one frame line */
+    wf_ticks tick_rate;       /* ticks a field period */
+    wf_ticks cell;            /* a subframe's cell; 0: there are edges */
+    wf_ticks cell_zero;       /* where cell 0 begins */
+    const wf_rational *edges; /* the description's */
+    wf_ticks width, opens;    /* the window, and where it opens from the field's instant */
+    wf_ticks skew_line;       /* delay of one frame line */
     int64_t subframes;
+    int64_t least_frames;    /* of the time that the sequence is shown */
     const wf_raster *raster; /* the description's: which fields share an instant */
 } wf_timing;
 
@@ -47,10 +53,21 @@ typedef struct wf_window {
     bool alone;
 } wf_window;
 
+/* Cells of pictures that are shown from times_s[k], seconds, to times_s[k + 1], the last to
+ * times_s[count]: cell k is from edges[k] to edges[k + 1], field periods from when the first is
+ * shown. center: cells run between the midpoints of these times instead, the first from half
+ * its length before its time, the last to half of it after. Both arrays have count + 1 ratios.
+ * False with a reason where times do not ascend, or a ratio does not fit. */
+bool wf_timing_edges(const wf_raster *raster, const wf_rational *times_s, int64_t count,
+                     bool center, wf_rational *edges, char *why, size_t why_size);
+
 /* False with a reason if the ratios are too fine to share a tick. */
 bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, size_t why_size);
 
-/* Whole frames that the sequence gives: floor(K / R * frame rate), exactly. */
+/* Frames that the sequence gives: those that fit into the time it is shown, but at least its
+ * leading whole frames. A frame is whole if its first field's instant lies before the end of
+ * the last cell, and all its windows end by then (of instantaneous ones: their instants lie
+ * before it). 0 where wf_timing_init refuses. */
 int64_t wf_timing_frames(const wf_timing_desc *desc);
 
 /* The window of frame line `line` of a field; the line matters only under scan skew. */

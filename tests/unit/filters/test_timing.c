@@ -149,23 +149,161 @@ static void windows_beyond_the_sequence_take_the_nearest(void **state) {
     assert_true(after.alone && after.first == 15 && after.count == 1);
 }
 
-static void whole_frames_of_a_sequence(void **state) {
+static void frames_of_a_sequence(void **state) {
     (void)state;
     const struct {
         const char *raster;
-        wf_rational rate;
+        wf_rational rate, width, skew;
+        bool center;
         int64_t subframes, frames;
     } cases[] = {
-        {"525i", {480000, 1001}, 128, 8}, {"525i", {480000, 1001}, 127, 7},
-        {"1080i50", {200, 1}, 128, 16},   {"720p60", {24, 1}, 24, 60},
-        {"525i", {480000, 1001}, 15, 0},  {"1080psf23.976", {24000, 1001}, 100000, 100000},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 128, 8},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 124, 8}, /* 15.5 fields */
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 123, 7},
+        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 126, 8}, /* the last line 15.75 - */
+        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 125, 7},
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 121, 8}, /* 15.125, and the instant 15
+                                                                  */
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 120, 7},
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, true, 120, 7},
+        {"525i", {480000, 1001}, {1, 1}, {0, 1}, false, 128, 8},
+        {"525i", {480000, 1001}, {1, 1}, {0, 1}, true, 128, 8}, /* the time that it is shown */
+        {"525i", {480000, 1001}, {2, 1}, {0, 1}, false, 128, 8},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, true, 124, 7}, /* its cells end at 15.4375 */
+        {"1080i50", {200, 1}, {1, 2}, {0, 1}, false, 128, 16},
+        {"1080i50", {200, 1}, {1, 4}, {0, 1}, false, 5, 1},
+        {"720p60", {24, 1}, {1, 2}, {0, 1}, false, 24, 60},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 11, 0},
+        {"1080psf23.976", {24000, 1001}, {1, 2}, {0, 1}, false, 100000, 100000},
+        {"1080psf25", {200, 1}, {1, 2}, {0, 1}, false, 12, 2}, /* 1.5 frames, one instant each
+                                                                */
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         wf_raster raster = raster_of(cases[n].raster);
-        wf_timing_desc desc = {
-            .raster = &raster, .subframe_rate = cases[n].rate, .subframes = cases[n].subframes};
-        assert_int_equal(wf_timing_frames(&desc), cases[n].frames);
+        wf_timing_desc desc = {.raster = &raster,
+                               .subframe_rate = cases[n].rate,
+                               .subframes = cases[n].subframes,
+                               .subframe_center = cases[n].center,
+                               .width = cases[n].width,
+                               .skew = cases[n].skew};
+        int64_t frames = wf_timing_frames(&desc);
+        if (frames != cases[n].frames) fail_msg("case %zu: %lld frames", n, (long long)frames);
     }
+}
+
+/* ---- Pictures with times of their own ---- */
+
+static uint32_t random_state = 1;
+static int below(int end) {
+    random_state = random_state * 1664525 + 1013904223;
+    return (int)((uint64_t)random_state * (uint64_t)end >> 32);
+}
+
+enum { PICTURES = 60 };
+
+/* Random pictures, some longer than a field and some far shorter, counted in units of which a
+ * second has `units`. */
+static void random_times(int64_t units, wf_rational times[PICTURES + 1], double t_s[]) {
+    int64_t at = below(1000);
+    for (int k = 0; k <= PICTURES; k++) {
+        times[k] = wf_ratio(at, units);
+        t_s[k] = (double)(at - times[0].num * (units / times[0].den)) / (double)units;
+        at += 1 + below(below(4) ? (int)(units / 200) : (int)(units / 20));
+    }
+}
+
+/* Overlaps of cells and windows in plain double, by the definition. */
+static void overlaps_of_irregular_cells(void **state) {
+    (void)state;
+    const char *rasters[] = {"525i", "1080i50", "1080psf25", "720p60"};
+    const wf_rational widths[] = {{1, 1}, {1, 2}, {3, 10}, {2, 1}};
+    for (int trial = 0; trial < 160; trial++) {
+        wf_raster raster = raster_of(rasters[trial % 4]);
+        double tf = wf_ratio_value(wf_raster_field_period(&raster)), t_s[PICTURES + 1];
+        bool center = below(2), skewed = below(2);
+        wf_rational times[PICTURES + 1], edges[PICTURES + 1];
+        random_times(trial % 3 ? 90000 : 1000, times, t_s);
+        char why[256];
+        assert_true(wf_timing_edges(&raster, times, PICTURES, center, edges, why, sizeof why));
+        wf_timing_desc desc = {.raster = &raster,
+                               .subframes = PICTURES,
+                               .edges = edges,
+                               .shown = wf_ratio(1, 1),
+                               .width = widths[below(4)],
+                               .position = (wf_position)below(3),
+                               .skew = skewed ? wf_ratio(1, 2) : wf_ratio(0, 1)};
+        wf_timing timing = timing_of(&desc);
+        double tau = wf_ratio_value(desc.width);
+        for (int64_t n = 0; n < 30; n++) {
+            int line = below(raster.lines);
+            double from = (double)wf_raster_instant(&raster, n) +
+                          (skewed ? 0.5 * line / raster.lines : 0) -
+                          wf_position_anchor(desc.position) * tau;
+            wf_window window = wf_timing_window(&timing, n, line);
+            for (int k = 0; k < PICTURES && !window.alone; k++) {
+                double a = t_s[k], b = t_s[k + 1], q0, q1;
+                if (center) {
+                    a = k ? (t_s[k - 1] + t_s[k]) / 2 : t_s[0] - (t_s[1] - t_s[0]) / 2;
+                    b = (t_s[k] + t_s[k + 1]) / 2;
+                }
+                double low = fmax(a / tf, from), high = fmin(b / tf, from + tau);
+                bool seen = k >= window.first && k < window.first + window.count;
+                if (high - low > 1e-9) assert_true(seen);
+                if (seen) {
+                    wf_timing_cell(&timing, n, line, k, &q0, &q1);
+                    assert_true(q1 > q0);
+                    assert_true(fabs(q0 - (low - from - tau / 2)) < 1e-9);
+                    assert_true(fabs(q1 - (high - from - tau / 2)) < 1e-9);
+                }
+            }
+            if (window.alone) assert_int_equal(window.count, 1);
+        }
+    }
+}
+
+/* Times that happen to be even give what a rate gives, to the last bit. */
+static void even_times_are_a_rate(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("525i");
+    wf_rational times[PICTURES + 1], edges[PICTURES + 1];
+    char why[256];
+    for (int k = 0; k <= PICTURES; k++) times[k] = wf_ratio(1001 * k + 77, 480000);
+    for (int center = 0; center < 2; center++) {
+        wf_timing_desc desc = eight_a_field(&raster);
+        desc.subframes = PICTURES;
+        desc.width = (wf_rational){1, 2};
+        desc.subframe_center = center;
+        wf_timing rate = timing_of(&desc);
+        int64_t frames = wf_timing_frames(&desc);
+        assert_true(wf_timing_edges(&raster, times, PICTURES, center, edges, why, sizeof why));
+        desc.edges = edges;
+        desc.shown = wf_ratio(PICTURES, 8);
+        wf_timing irregular = timing_of(&desc);
+        assert_int_equal(wf_timing_frames(&desc), frames);
+        for (int64_t n = 0; n < 12; n++) {
+            wf_window a = wf_timing_window(&rate, n, 0), b = wf_timing_window(&irregular, n, 0);
+            assert_true(a.first == b.first && a.count == b.count && a.alone == b.alone);
+            for (int64_t k = a.first; k < a.first + a.count && !a.alone; k++) {
+                double p0, p1, q0, q1;
+                wf_timing_cell(&rate, n, 0, k, &p0, &p1);
+                wf_timing_cell(&irregular, n, 0, k, &q0, &q1);
+                assert_true(p0 == q0 && p1 == q1);
+            }
+        }
+    }
+}
+
+static void times_that_will_not_do(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("1080i50");
+    const wf_rational repeats[] = {{0, 1}, {1, 50}, {1, 50}, {3, 50}};
+    const wf_rational back[] = {{0, 1}, {2, 50}, {1, 50}, {3, 50}};
+    const wf_rational fine[] = {{0, 1}, {1, INT64_MAX}, {2, INT64_MAX - 1}, {3, 50}};
+    wf_rational edges[4];
+    char why[256];
+    assert_false(wf_timing_edges(&raster, repeats, 3, false, edges, why, sizeof why));
+    assert_false(wf_timing_edges(&raster, back, 3, false, edges, why, sizeof why));
+    assert_false(wf_timing_edges(&raster, fine, 3, true, edges, why, sizeof why));
 }
 
 static void ratios_too_fine_are_refused(void **state) {
@@ -189,7 +327,10 @@ int main(void) {
         cmocka_unit_test(scan_skew_delays_lines),
         cmocka_unit_test(segmented_fields_share_an_instant),
         cmocka_unit_test(windows_beyond_the_sequence_take_the_nearest),
-        cmocka_unit_test(whole_frames_of_a_sequence),
+        cmocka_unit_test(frames_of_a_sequence),
+        cmocka_unit_test(overlaps_of_irregular_cells),
+        cmocka_unit_test(even_times_are_a_rate),
+        cmocka_unit_test(times_that_will_not_do),
         cmocka_unit_test(ratios_too_fine_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,7 +68,8 @@ static void frames_of_film(void **state) {
     (void)state;
     wf_raster raster = film_raster("525i");
     const int64_t frames[] = {0, 1, 2, 3, 5, 6, 7, 8, 10};
-    wf_timing_desc desc = {.raster = &raster, .subframe_rate = {24000, 1001}};
+    wf_timing_desc desc = {
+        .raster = &raster, .subframe_rate = {24000, 1001}, .width = {1, 2}, .skew = {0, 1}};
     for (int64_t film = 0; film < 9; film++) {
         desc.subframes = film;
         assert_int_equal(wf_timing_frames(&desc), frames[film]);

@@ -1,15 +1,15 @@
 /* Rates and times in EXR headers: framesPerSecond, weft:subframeRate, weft:time. */
+#include "convert/media/exr_times.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "convert/read/source_exr.h"
-
 /* ---- Attributes ---- */
 
-static const exr_attribute_t *attribute(const wf_subframe *s, const char *name) {
+static const exr_attribute_t *attribute(exr_const_context_t exr, int part, const char *name) {
     const exr_attribute_t *found = NULL;
-    return exr_get_attribute_by_name(s->exr, s->part, name, &found) ? NULL : found;
+    return exr_get_attribute_by_name(exr, part, name, &found) ? NULL : found;
 }
 
 /* " 23.976 fps" is 24000/1001. */
@@ -54,8 +54,8 @@ static wf_rational ratio_of(const exr_attribute_t *a) {
     }
 }
 
-wf_rational wf_exr_ratio(const wf_subframe *s, const char *name) {
-    const exr_attribute_t *found = attribute(s, name);
+wf_rational wf_exr_ratio(exr_const_context_t exr, int part, const char *name) {
+    const exr_attribute_t *found = attribute(exr, part, name);
     return found ? ratio_of(found) : (wf_rational){0, 0};
 }
 
@@ -93,21 +93,22 @@ static bool is_rate(wf_rational rate) {
 }
 
 /* {0, 0} where there is none, and where it is absurd, which no_rate then tells. */
-static wf_rational rate_of(wf_subframe *s, const char *name) {
-    const exr_attribute_t *found = attribute(s, name);
+static wf_rational rate_of(exr_const_context_t exr, int part, const char *name,
+                           wf_image_info *info) {
+    const exr_attribute_t *found = attribute(exr, part, name);
     if (!found) return (wf_rational){0, 0};
     wf_rational rate = ratio_of(found);
     if (is_rate(rate)) return rate;
     char value[44];
     value_text(found, value, sizeof value);
-    snprintf(s->info.no_rate, sizeof s->info.no_rate, "%s %s", name, value);
+    snprintf(info->no_rate, sizeof info->no_rate, "%s %s", name, value);
     return (wf_rational){0, 0};
 }
 
-void wf_exr_read_times(wf_subframe *s) {
-    s->info.frames = rate_of(s, "framesPerSecond");
-    s->info.rate = rate_of(s, "weft:subframeRate");
-    s->info.counts_files = wf_ratio_given(s->info.rate);
-    if (!s->info.counts_files) s->info.rate = s->info.frames;
-    s->info.time_s = wf_exr_ratio(s, "weft:time");
+void wf_exr_read_times(exr_const_context_t exr, int part, wf_image_info *info) {
+    info->frames = rate_of(exr, part, "framesPerSecond", info);
+    info->rate = rate_of(exr, part, "weft:subframeRate", info);
+    info->counts_files = wf_ratio_given(info->rate);
+    if (!info->counts_files) info->rate = info->frames;
+    info->time_s = wf_exr_ratio(exr, part, "weft:time");
 }

@@ -12,7 +12,7 @@
 
 #include <openexr.h>
 
-#include "convert/run/rate.h"
+#include "convert/read/rate.h"
 #include "convert/read/source.h"
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
