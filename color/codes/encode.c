@@ -30,13 +30,6 @@ size_t wf_encode_scratch(const wf_encoding *encoding) {
     return kept + most;
 }
 
-/* Colors that are held to R 103 have no light below black: what is out of gamut loses it before
- * anything else looks at it. */
-static void clip_black(const wf_encoding *e, float *const rgb[3]) {
-    for (int c = 0; c < 3; c++)
-        for (int x = 0; x < e->width_px; x++) rgb[c][x] = rgb[c][x] > 0 ? rgb[c][x] : 0;
-}
-
 /* R'G'B' to Y'CbCr, in place. */
 static void make_ycbcr(const wf_encoding *e, float *const rgb[3], float *scratch) {
     const wf_line_ops *ops = wf_line_ops_best();
@@ -70,7 +63,6 @@ static void quantize(const wf_encoding *e, int plane, float *signal, uint16_t *c
 
 void wf_encode_line(const wf_encoding *encoding, float *const rgb[3], float *scratch,
                     uint16_t *const code[3]) {
-    if (encoding->legalize == WF_LEGAL_R103) clip_black(encoding, rgb);
     if (encoding->ycbcr) make_ycbcr(encoding, rgb, scratch);
     legalize(encoding, rgb, scratch);
     for (int p = 0; p < 3; p++) quantize(encoding, p, rgb[p], code[p]);

@@ -9,9 +9,8 @@
 #include "color/codes/dither.h"
 #include "color/line/luma.h"
 
-/* clip holds the codes of narrow range within 16..235 (chroma 16..240) of 8 bits; r103 makes
- * R'G'B' below black black and holds colors within the limits of EBU R 103
- * (color/codes/r103.h). */
+/* clip holds the codes of narrow range within 16..235 (chroma 16..240) of 8 bits; r103 holds
+ * colors within the limits of EBU R 103 (color/codes/r103.h). */
 typedef enum wf_legalize { WF_LEGAL_NONE, WF_LEGAL_CLIP, WF_LEGAL_R103 } wf_legalize;
 
 /* What r103 has done, in pixels: those seen, those changed, and those still outside. */

@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "color/codes/r103.h"
 #include "convert/base/clock.h"
 
 /* The planes of a frame, and what r103 has done to its lines so far. */
@@ -158,13 +159,25 @@ static void encode(wf_frames *f, const wf_worker *worker, int64_t field, int lin
     frame->outside += legal.outside;
 }
 
+/* Out of gamut R'G'B' is far below black, where saturation cannot be compressed to: under r103
+ * it ends at the limit. */
+static void clip_below(const wf_setup *s, float *const rgb[3], size_t width) {
+    const float low = (float)WF_R103_LOW;
+    if (is_linear(s) || s->encoding.legalize != WF_LEGAL_R103) return;
+    for (int c = 0; c < 3; c++)
+        for (size_t x = 0; x < width; x++) rgb[c][x] = rgb[c][x] > low ? rgb[c][x] : low;
+}
+
 void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
     const wf_transform *transform = &f->setup->transform;
     float *rgb[3];
     double start = wf_now_s();
     wf_frames_place(f, worker, field, line, rgb);
-    if (transform->apply)
-        transform->apply(transform->self, rgb[0], rgb[1], rgb[2], (size_t)f->raster->width_px);
+    size_t width = (size_t)f->raster->width_px;
+    if (transform->apply) {
+        transform->apply(transform->self, rgb[0], rgb[1], rgb[2], width);
+        clip_below(f->setup, rgb, width);
+    }
     if (!is_linear(f->setup)) encode(f, worker, field, line, rgb);
     worker->color_s += wf_now_s() - start;
 }
