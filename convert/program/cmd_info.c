@@ -46,12 +46,14 @@ static void tell_picture(wf_facts *facts, const wf_image_info *info) {
     if (*info->timecode) wf_fact_text(facts, "timecode", info->timecode);
 }
 
-static void take_rate(const wf_image_info *info, const wf_sequence *sequence,
-                      wf_taken_list *taken) {
-    wf_rational rate;
-    char text[48];
-    if (!wf_rate_of_files("", info, sequence, &rate, NULL))
-        wf_take(taken, "rate", wf_rate_text(rate, text), "file");
+/* The sequence may lose what is missing. */
+static void take_rate(const wf_image_info *info, wf_sequence *sequence, wf_taken_list *taken) {
+    wf_shown shown;
+    char text[48] = "irregular";
+    if (wf_shown_by_files("", info, sequence, &shown, NULL)) return;
+    if (!shown.times_s) wf_rate_text(shown.rate, text);
+    wf_take(taken, "rate", text, "file");
+    wf_shown_free(&shown);
 }
 
 /* A layer that the file has: a line, or an object of "layers". */
@@ -81,8 +83,8 @@ static weft_status tell_layers(const char *path, wf_facts *facts, weft_error *er
 }
 
 /* A file of a sequence. */
-static weft_status tell_file(const wf_subframe_ref *ref, const wf_sequence *sequence,
-                             wf_facts *facts, weft_error *err) {
+static weft_status tell_file(const wf_subframe_ref *ref, wf_sequence *sequence, wf_facts *facts,
+                             weft_error *err) {
     const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
                                        .max_memory_bytes = (size_t)2 << 30};
     wf_subframe *subframe;
@@ -132,7 +134,7 @@ static void sum_up_missing(wf_facts *facts, const wf_sequence *sequence) {
     wf_fact_text(facts, "missing", text);
 }
 
-static weft_status tell_refs(wf_facts *facts, const wf_sequence *sequence, weft_error *err) {
+static weft_status tell_refs(wf_facts *facts, wf_sequence *sequence, weft_error *err) {
     size_t present = 0, last = sequence->count - 1;
     wf_fact_text(facts, "kind", "sequence");
     wf_fact_int(facts, "subframes", (int64_t)sequence->count);
@@ -164,7 +166,7 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     weft_status status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
     wf_fact_text(facts, "kind", "picture");
-    const wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
+    wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
     return tell_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);
 }
 

@@ -12,6 +12,8 @@ check "info as JSON" exits 0 weft info --json in 'in/subframe.####.exr' in/subfr
 check "info is JSON" json
 check "info counts" value "[f.get('subframes') for f in d['files']] == [32, 32, None] and
     d['files'][2]['rate'] == '480000/1001' and d['files'][0]['missing'] == []"
+check "info says the rate and why" value "all(f['input']['rate'] ==
+    {'value': '480000/1001', 'reason': 'file'} for f in d['files'])"
 rm in/subframe.0005.exr
 exits 0 weft info --json in
 check "info sees what is missing" value "d['files'][0]['missing'] == [5]"
