@@ -1,6 +1,8 @@
 #ifndef WF_CONVERT_MEDIA_VIDEO_KIND_H
 #define WF_CONVERT_MEDIA_VIDEO_KIND_H
 
+#include <stdio.h>
+
 #include "color/codes/display.h"
 #include "convert/base/fail.h"
 #include "convert/job/output.h"
@@ -56,6 +58,8 @@ typedef struct wf_video_frame {
     float *plane[3];
     int width_px[3], lines[3];
     int64_t index; /* from 0 */
+    bool timed;    /* it says when it is shown: */
+    int64_t ticks; /* from any zero, of info.tick_s */
 } wf_video_frame;
 
 typedef struct wf_video wf_video;
@@ -81,6 +85,7 @@ typedef struct wf_video_kind {
 struct wf_video {
     const wf_video_kind *kind;
     char *path;
+    FILE *pipe; /* what cannot be opened twice, its first byte unread; NULL: a file */
     wf_video_options options;
     wf_video_info info;
     wf_video_frame frame;

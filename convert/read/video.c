@@ -123,12 +123,18 @@ static bool is_y4m(const char *path) {
     return got == sizeof head - 1 && !strcmp(head, WF_Y4M_MAGIC);
 }
 
+static bool is_pipe(const char *path) {
+    struct stat about;
+    return !strcmp(path, "-") ||
+           (!stat(path, &about) && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode));
+}
+
 static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_error *err) {
     struct stat about;
     bool there = !stat(path, &about);
     *kind = &wf_video_libav;
-    /* Pipes are not looked into, since they cannot be read twice: they are taken for Y4M. */
-    if (!strcmp(path, "-") || (there && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)))
+    /* Pipes are looked into when they are opened, since they cannot be read twice. */
+    if (is_pipe(path))
         *kind = &wf_video_y4m;
     else if (there ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
         *kind = &wf_video_pictures;
@@ -166,6 +172,17 @@ static weft_status make_planes(wf_video *v, weft_error *err) {
     return WEFT_OK;
 }
 
+/* Opens a pipe and tells by its first byte, which is put back, whether it may be Y4M. */
+static weft_status open_pipe(wf_video *v, weft_error *err) {
+    v->pipe = strcmp(v->path, "-") ? fopen(v->path, "rb") : stdin;
+    if (!v->pipe) return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(errno));
+    int first = getc(v->pipe);
+    if (first == EOF) return wf_fail(err, WEFT_FAILED, "%s: the pipe is empty", v->path);
+    ungetc(first, v->pipe);
+    v->kind = first == WF_Y4M_MAGIC[0] ? &wf_video_y4m : &wf_video_libav;
+    return WEFT_OK;
+}
+
 weft_status wf_video_open(const char *path, const wf_video_options *options, wf_video **out,
                           weft_error *err) {
     const wf_video_kind *kind;
@@ -186,7 +203,8 @@ weft_status wf_video_open(const char *path, const wf_video_options *options, wf_
                               .tags = {2, 2, 2, false, WF_SITING_LEFT}};
     v->frame.index = -1;
     wf_video_label label = {0};
-    status = kind->open(v, &label, err);
+    status = is_pipe(path) ? open_pipe(v, err) : WEFT_OK;
+    if (!status) status = v->kind->open(v, &label, err);
     if (!status) status = settle_raster(v, &label, err);
     if (!status) status = wf_video_check_memory(v, err);
     if (!status) status = make_planes(v, err);
@@ -224,10 +242,15 @@ void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines
     *lines = video->frame.lines[p];
 }
 
+int64_t wf_video_ticks(const wf_video *video) {
+    return video->frame.timed ? video->frame.ticks : INT64_MIN;
+}
+
 void wf_video_close(wf_video *video) {
     if (!video) return;
     video->kind->close(video);
     for (int p = 0; p < 3; p++) free(video->frame.plane[p]);
+    if (video->pipe && video->pipe != stdin) fclose(video->pipe);
     free(video->info.times);
     free(video->path);
     free(video);

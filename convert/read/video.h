@@ -7,7 +7,7 @@
  * Y4M, raw v210 and uyvy, pictures and sequences of them and, through the libav module where it
  * is there, whatever else. One thread at a time. */
 
-/* Opens a file, a pattern or a directory of pictures, or "-" for Y4M on standard input, and
+/* Opens a file, a pattern or a directory of pictures, or "-" for video on standard input, and
  * reads what it says of itself. */
 weft_status wf_video_open(const char *path, const wf_video_options *options, wf_video **out,
                           weft_error *err);
@@ -21,6 +21,10 @@ weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_er
  * they are NULL passes the picture over. *more is false, and nothing filled, after the last. */
 weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
                                 weft_error *err);
+
+/* When the picture last given is shown, in ticks of info.tick_s from any zero; INT64_MIN: it
+ * does not say. */
+int64_t wf_video_ticks(const wf_video *video);
 
 /* How large plane p is. */
 void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines);

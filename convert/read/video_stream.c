@@ -31,7 +31,7 @@ static weft_status failed(const wf_video *v, weft_error *err) {
 static weft_status open_file(wf_video *v, weft_error *err) {
     stream *s = v->state = calloc(1, sizeof *s);
     if (!s) return wf_video_no_memory(v, err);
-    s->file = strcmp(v->path, "-") ? fopen(v->path, "rb") : stdin;
+    s->file = v->pipe ? v->pipe : fopen(v->path, "rb");
     return s->file ? WEFT_OK : failed(v, err);
 }
 
@@ -50,7 +50,7 @@ static weft_status make_buffers(wf_video *v, weft_error *err) {
 static void close_stream(wf_video *v) {
     stream *s = v->state;
     if (!s) return;
-    if (s->file && s->file != stdin) fclose(s->file);
+    if (s->file && s->file != v->pipe) fclose(s->file);
     free(s->bytes);
     free(s->code[0]);
     free(s);

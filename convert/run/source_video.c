@@ -27,6 +27,8 @@ typedef struct video_source {
     wf_source_options options; /* of no consequence: nothing is read from files */
     wf_image_info first;
     int64_t picture, step, count; /* unit u is picture + u step; count -1: not known yet */
+    bool keeps_rate;              /* timestamps are held against the rate */
+    int64_t first_ticks;          /* of a pipe: when picture 0 is shown */
     wf_timing_desc timing;
     wf_resampler *resampler;
     int64_t end_field;
@@ -179,10 +181,11 @@ static weft_status check_pipe(const weft_job *job, const video_source *s, weft_e
 /* ---- Time ---- */
 
 static weft_status settle_rate(wf_run *run, wf_rational *rate, weft_error *err) {
-    const video_source *s = run->source;
+    video_source *s = run->source;
     bool given = wf_ratio_given(run->job->subframe_rate);
     weft_status status = WEFT_OK;
     *rate = run->job->subframe_rate;
+    s->keeps_rate = !given;
     if (!given) status = wf_video_rate(&s->info, s->path, rate, err);
     if (!status && !wf_ratio_given(*rate))
         status = wf_fail(err, WEFT_FAILED,
@@ -302,6 +305,22 @@ static weft_status ends_early(const video_source *s, int64_t unit, weft_error *e
                    s->path, held, at_s, s->picture + (s->count - 1) * s->step + 1);
 }
 
+/* The timestamps of a file have been listed before; those of a pipe come with its pictures. */
+static weft_status check_step(video_source *s, weft_error *err) {
+    int64_t ticks = wf_video_window_ticks(s->window),
+            picture = wf_video_window_next(s->window) - 1;
+    if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0) return WEFT_OK;
+    if (!picture) s->first_ticks = ticks;
+    wf_rational rate = wf_ratio_mul(s->timing.subframe_rate, wf_ratio(s->step, 1));
+    if (wf_video_in_step(&s->info, rate, picture, ticks - s->first_ticks)) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its pictures do not last equally long: number %" PRId64
+                   ", at %.3f s, is out of step, which a pipe cannot tell before; write a file "
+                   "first, or give --subframe-rate to take them as equally long",
+                   s->path, picture,
+                   (double)(ticks - s->first_ticks) * wf_ratio_value(s->info.tick_s));
+}
+
 /* Decodes up to and with a unit, and keeps it; those before it are kept from `keep` on. */
 static weft_status decode_to(video_source *s, int64_t unit, int64_t keep, weft_error *err) {
     int64_t number = s->picture + unit * s->step;
@@ -312,6 +331,7 @@ static weft_status decode_to(video_source *s, int64_t unit, int64_t keep, weft_e
         bool selected = next >= 0 && next % s->step == 0;
         bool kept = selected && (next / s->step >= keep || next / s->step == unit);
         status = wf_video_window_advance(s->window, kept, err);
+        if (!status) status = check_step(s, err);
     }
     return status;
 }

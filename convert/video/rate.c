@@ -10,16 +10,18 @@
 
 __extension__ typedef __int128 wide;
 
-/* Whether picture k is within a tick of k / rate for all k; else *at is the first that is not.
- */
-static bool fits(const wf_video_info *info, wf_rational rate, int64_t *at) {
-    /* k / rate in ticks is k ticks_num / ticks_den. */
+bool wf_video_in_step(const wf_video_info *info, wf_rational rate, int64_t picture,
+                      int64_t ticks) {
+    /* picture / rate in ticks is picture num / den. */
     wide num = (wide)rate.den * info->tick_s.den, den = (wide)rate.num * info->tick_s.num;
-    for (int64_t k = 0; k < info->frames; k++) {
-        wide off = (wide)(info->times[k] - info->times[0]) * den - k * num;
-        *at = k;
-        if (off > den || off < -den) return false;
-    }
+    wide off = (wide)ticks * den - picture * num;
+    return off <= den && off >= -den;
+}
+
+/* Whether picture k is within a tick of k / rate for all k. */
+static bool fits(const wf_video_info *info, wf_rational rate) {
+    for (int64_t k = 0; k < info->frames; k++)
+        if (!wf_video_in_step(info, rate, k, info->times[k] - info->times[0])) return false;
     return true;
 }
 
@@ -33,10 +35,10 @@ static wf_rational mean_rate(const wf_video_info *info) {
  * was meant. */
 static bool find_usual(const wf_video_info *info, wf_rational mean, wf_rational *rate) {
     double value = wf_ratio_value(mean);
-    int64_t near = (int64_t)(value + 0.5), at;
+    int64_t near = (int64_t)(value + 0.5);
     const wf_rational usual[] = {wf_ratio(near, 1), wf_ratio(near * 1000, 1001)};
     for (size_t i = 0; near && i < sizeof usual / sizeof *usual; i++)
-        if (fits(info, usual[i], &at)) {
+        if (fits(info, usual[i])) {
             *rate = usual[i];
             return true;
         }
@@ -59,15 +61,14 @@ static weft_status check(const char *path, wf_rational rate, weft_error *err) {
 
 weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_rational *rate,
                           weft_error *err) {
-    int64_t at = 0;
     *rate = info->rate;
     if (!info->times || info->frames < 2) return check(path, *rate, err);
     weft_status status = check(path, *rate, NULL);
-    if (!status && fits(info, *rate, &at)) return WEFT_OK;
+    if (!status && fits(info, *rate)) return WEFT_OK;
     wf_rational mean = mean_rate(info);
     if (!check(path, mean, NULL) && find_usual(info, mean, rate)) return WEFT_OK;
     *rate = mean;
-    if (!check(path, mean, NULL) && fits(info, mean, &at)) return WEFT_OK;
+    if (!check(path, mean, NULL) && fits(info, mean)) return WEFT_OK;
     *rate = (wf_rational){0, 0};
     return WEFT_OK;
 }

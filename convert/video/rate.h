@@ -11,6 +11,11 @@
 weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_rational *rate,
                           weft_error *err);
 
+/* Whether a picture that is shown so many ticks after the first keeps to a rate, within a tick.
+ */
+bool wf_video_in_step(const wf_video_info *info, wf_rational rate, int64_t picture,
+                      int64_t ticks);
+
 /* When `count` pictures are shown, each step-th from `first` on: times_s[count + 1], seconds
  * after the first of them; the last is when the last one ends, which is as long as its stream
  * says, else as the one before. The caller's, free(). WEFT_FAILED where a picture does not come

@@ -117,6 +117,8 @@ if has_libav && has ffmpeg; then
     done
     check "a tagged file" exits 0 weft convert turns.mov --raster 64x32@25i --overwrite -o o3.y4m
     check "is not told of" [ -z "$(grep tagged said)" ]
+    check "a pipe of a container" bash -c "cat turns.mkv | '$WEFT' convert - $box -o p.y4m"
+    check "is the same" cmp o3.y4m p.y4m
     # Milliseconds do not tell 240000/1001.
     y4m fast.y4m "W64 H32 F240000:1001 Ip A1:1 C444p10" 60 64 940
     quiet_ffmpeg -i fast.y4m -c:v ffv1 fast.mkv
@@ -127,6 +129,10 @@ if has_libav && has ffmpeg; then
     check "which is said" says "would replace an input"
     quiet_ffmpeg -i turns.y4m -vf "setpts=N*(1+mod(N\,3))/100/TB/2" -fps_mode passthrough -c:v ffv1 uneven.mkv
     check "uneven times" fails "do not last equally long" weft convert uneven.mkv $box -o no.y4m
+    check "uneven times of a pipe" fails "out of step" weft convert <(cat uneven.mkv) $box -o no.y4m
+    check "and when" says "0.030 s"
+    check "a pipe of a container that is cut off" fails "before what it says is its end" \
+        weft convert <(head -c 3000 turns.mkv) $box -o no.y4m
     head -c $(($(stat -c %s turns.mkv) / 2)) turns.mkv >cut.mkv
     check "cut off" exits 1 weft convert cut.mkv $box -o no.y4m
     check "nothing is left" [ ! -e no.y4m ]

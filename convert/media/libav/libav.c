@@ -24,9 +24,10 @@ typedef struct reading {
     int stream;
     bool have; /* frame holds the next one */
     bool drained;
-    int64_t packets; /* of the stream, read so far */
-    double end_s;    /* of the last one */
-    uint16_t *code;  /* [width] */
+    int64_t packets;   /* of the stream, read so far */
+    double end_s;      /* of the last one */
+    uint16_t *code;    /* [width] */
+    AVIOContext *pipe; /* what reads video->pipe; NULL: a file */
 } reading;
 
 static weft_status failed(const wf_video *v, const char *doing, int code, weft_error *err) {
@@ -38,12 +39,35 @@ static weft_status failed(const wf_video *v, const char *doing, int code, weft_e
 
 /* ---- Opening ---- */
 
+enum { PIPE_BYTES = 1 << 16 };
+
+static int read_pipe(void *opaque, uint8_t *to, int size) {
+    FILE *pipe = opaque;
+    size_t got = fread(to, 1, (size_t)size, pipe);
+    return got ? (int)got : ferror(pipe) ? AVERROR(EIO) : AVERROR_EOF;
+}
+
+/* libav reads a pipe through its FILE, whose first byte has been looked at. */
+static weft_status use_pipe(wf_video *v, weft_error *err) {
+    reading *r = v->state;
+    uint8_t *buffer = av_malloc(PIPE_BYTES);
+    r->format = avformat_alloc_context();
+    if (buffer)
+        r->pipe = avio_alloc_context(buffer, PIPE_BYTES, 0, v->pipe, read_pipe, NULL, NULL);
+    if (!r->pipe) av_free(buffer);
+    if (!r->format || !r->pipe) return wf_video_no_memory(v, err);
+    r->format->pb = r->pipe;
+    return WEFT_OK;
+}
+
 static weft_status open_file(wf_video *v, weft_error *err) {
     reading *r = v->state;
+    weft_status status = v->pipe ? use_pipe(v, err) : WEFT_OK;
+    if (status) return status;
     char *url = malloc(strlen(v->path) + sizeof "file:"); /* a ':' is no protocol's */
     if (!url) return wf_video_no_memory(v, err);
     strcat(strcpy(url, "file:"), v->path);
-    int code = avformat_open_input(&r->format, url, NULL, NULL);
+    int code = avformat_open_input(&r->format, v->pipe ? NULL : url, NULL, NULL);
     free(url);
     if (code < 0)
         return failed(v, "it is no video that libav knows, nor Y4M, v210, uyvy or a picture",
@@ -238,7 +262,7 @@ static void describe_stream(wf_video *v, wf_video_label *label) {
     v->info.width_px = r->frame->width;
     v->info.interval_lines = interval_lines(r);
     v->info.lines = r->frame->height - v->info.interval_lines;
-    v->info.frames = stream->nb_frames > 0 ? stream->nb_frames : -1;
+    v->info.frames = !v->pipe && stream->nb_frames > 0 ? stream->nb_frames : -1;
     label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
     label->aspect = pixel_aspect(r, v->info.lines);
     label_scan(r, label);
@@ -257,6 +281,8 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     if (!status) status = describe_pixels(v, err);
     if (status) return status;
     describe_stream(v, label);
+    AVRational tick = r->format->streams[r->stream]->time_base;
+    v->info.tick_s = wf_ratio(tick.num, tick.den);
     if (v->options.want_times) status = wf_libav_times(v, r->stream, err);
     if (status) return status;
     r->code = malloc((size_t)v->info.width_px * sizeof *r->code);
@@ -335,6 +361,8 @@ static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
     if (!r->have) return check_end(v, err);
     status = check_frame(v, err);
     if (!status) take_frame(v);
+    v->frame.timed = r->frame->best_effort_timestamp != AV_NOPTS_VALUE;
+    v->frame.ticks = r->frame->best_effort_timestamp;
     av_frame_unref(r->frame);
     r->have = false;
     return status;
@@ -348,6 +376,8 @@ static void libav_close(wf_video *v) {
     av_packet_free(&r->packet);
     avcodec_free_context(&r->codec);
     avformat_close_input(&r->format);
+    if (r->pipe) av_freep(&r->pipe->buffer);
+    avio_context_free(&r->pipe);
     free(r);
 }
 
