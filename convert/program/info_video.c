@@ -1,10 +1,9 @@
 /* Part of weft info: video in containers, as the libav module reads it. */
-#include <inttypes.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "convert/program/info_facts.h"
+#include "convert/read/rate.h"
 #include "convert/video/meaning.h"
 #include "convert/video/rate.h"
 
@@ -38,10 +37,11 @@ weft_status wf_info_meaning(const wf_video *video, const char *path, wf_facts *f
     weft_status status = wf_meaning_of(info, path, &meaning, err);
     if (status) return status;
     wf_meaning_take(&meaning, info, &taken);
-    char text[48] = "unknown";
-    if (!wf_video_rate(info, path, &rate, NULL))
-        snprintf(text, sizeof text, "%" PRId64 "/%" PRId64, rate.num, rate.den);
-    wf_take(&taken, "rate", text, "file");
+    char text[48] = "irregular";
+    if (!wf_video_rate(info, path, &rate, NULL)) {
+        if (wf_ratio_given(rate)) wf_rate_text(rate, text);
+        wf_take(&taken, "rate", text, "file");
+    }
     wf_facts_taken(facts, &taken);
     return WEFT_OK;
 }

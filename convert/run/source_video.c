@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "convert/base/range.h"
+#include "convert/read/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/pictures.h"
 #include "convert/run/timecode_start.h"
@@ -29,6 +30,8 @@ typedef struct video_source {
     int64_t picture, step, count; /* unit u is picture + u step; count -1: not known yet */
     bool keeps_rate;              /* timestamps are held against the rate */
     int64_t first_ticks;          /* of a pipe: when picture 0 is shown */
+    wf_rational *times_s;         /* [count + 1], where pictures last unequally long */
+    wf_rational *edges;           /* of these times; NULL: pictures have a rate */
     wf_timing_desc timing;
     wf_resampler *resampler;
     int64_t end_field;
@@ -44,6 +47,8 @@ static void close_input(wf_run *run) {
     wf_resampler_free(s->resampler);
     wf_video_window_free(s->window);
     wf_light_free(s->light);
+    free(s->times_s);
+    free(s->edges);
     free(s);
     run->source = NULL;
 }
@@ -180,37 +185,51 @@ static weft_status check_pipe(const weft_job *job, const video_source *s, weft_e
 
 /* ---- Time ---- */
 
+/* A rate of {0, 0} is none: pictures have times. */
 static weft_status settle_rate(wf_run *run, wf_rational *rate, weft_error *err) {
     video_source *s = run->source;
     bool given = wf_ratio_given(run->job->subframe_rate);
+    char text[48] = "irregular";
     weft_status status = WEFT_OK;
     *rate = run->job->subframe_rate;
     s->keeps_rate = !given;
     if (!given) status = wf_video_rate(&s->info, s->path, rate, err);
     if (!status && !wf_ratio_given(*rate))
-        status = wf_fail(err, WEFT_FAILED,
-                         "%s: its pictures do not last equally long; make their rate constant, "
-                         "such as with ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give "
-                         "--subframe-rate to take them as equally long",
-                         s->path);
+        status =
+            wf_video_shown(&s->info, s->path, s->picture, s->step, s->count, &s->times_s, err);
     if (status) return status;
-    if (!given) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
-    char text[48];
-    int used = snprintf(text, sizeof text, "%" PRId64, rate->num);
-    if (rate->den != 1)
-        snprintf(text + used, sizeof text - (size_t)used, "/%" PRId64, rate->den);
+    if (!given && !s->times_s) *rate = wf_ratio_div(*rate, wf_ratio(s->step, 1));
+    if (!s->times_s) wf_rate_text(*rate, text);
     wf_take(&run->report->taken, "rate", text, given ? "option" : "file");
     return WEFT_OK;
+}
+
+static weft_status make_edges(const wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    char why[512];
+    if (!s->times_s) return WEFT_OK;
+    s->edges = calloc((size_t)s->count + 1, sizeof *s->edges);
+    if (!s->edges) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its times", s->path);
+    if (wf_timing_edges(&run->job->raster, s->times_s, s->count, run->job->subframe_time_center,
+                        s->edges, why, sizeof why))
+        return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
+}
+
+static double mean_rate(const video_source *s, wf_rational rate) {
+    return s->times_s ? (double)s->count / wf_ratio_value(s->times_s[s->count])
+                      : wf_ratio_value(rate);
 }
 
 static void warn_of_few(const wf_run *run, wf_rational rate) {
     const wf_raster *raster = &run->job->raster;
     double fields = 1 / wf_ratio_value(wf_raster_field_period(raster));
-    if (raster->pulldown || wf_ratio_value(rate) >= fields * (1 - 1e-9)) return;
+    double pictures = mean_rate(run->source, rate);
+    if (raster->pulldown || pictures >= fields * (1 - 1e-9)) return;
     wf_job_warn(run->job,
                 "%s: %.6g pictures a second are fewer than the %.6g fields a second of %s: "
                 "fields will repeat pictures",
-                run->job->inputs[0], wf_ratio_value(rate), fields, raster->name);
+                run->job->inputs[0], pictures, fields, raster->name);
 }
 
 /* ---- Fields ---- */
@@ -232,11 +251,15 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
     s->timing = (wf_timing_desc){
         .raster = &job->raster,
         .subframe_rate = rate,
+        .edges = s->edges,
         .subframe_center = job->subframe_time_center,
         .subframes = s->count < 0 ? ENDLESS_FRAMES * WF_UNITS_TOGETHER : s->count,
         .width = wf_setup_width(job),
         .position = job->shutter_position,
         .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)};
+    if (s->edges)
+        s->timing.shown =
+            wf_ratio_div(s->times_s[s->count], wf_raster_field_period(&job->raster));
     wf_resample_desc desc = {
         .raster = &job->raster,
         .aperture = job->aperture,
@@ -252,20 +275,30 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
 static weft_status too_few(const wf_run *run, int64_t count, weft_error *err) {
     const video_source *s = run->source;
     return wf_fail(err, WEFT_FAILED,
-                   "%s: %" PRId64 " pictures at %" PRId64 "/%" PRId64
-                   " a second do not fill one frame of %s",
-                   s->path, count, s->timing.subframe_rate.num, s->timing.subframe_rate.den,
+                   "%s: %" PRId64 " pictures, %.6g a second, do not fill one frame of %s",
+                   s->path, count, mean_rate(s, s->timing.subframe_rate),
                    run->job->raster.name);
+}
+
+/* How many frames so many pictures give. */
+static int64_t frames_of(const video_source *s, int64_t pictures) {
+    wf_timing_desc desc = s->timing;
+    desc.subframes = pictures;
+    return pictures < 1 ? 0 : wf_timing_frames(&desc);
 }
 
 static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err) {
     video_source *s = run->source;
-    const wf_resample_desc desc = describe_fields(run, rate);
-    int64_t frames = s->count < 0 ? ENDLESS_FRAMES : wf_timing_frames(&desc.timing);
+    int64_t frames = ENDLESS_FRAMES;
     char why[512];
+    weft_status status = make_edges(run, err);
+    if (status) return status;
+    const wf_resample_desc desc = describe_fields(run, rate);
+    if (s->count >= 0) frames = frames_of(s, s->count);
     if (frames < 1) return too_few(run, s->count, err);
-    run->setup.endless = s->count < 0;
-    wf_setup_frames(run->job, &run->setup, 0, frames);
+    run->setup.endless = s->count < 0 && !run->job->output_end;
+    status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
+    if (status) return status;
     s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
     if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
         return wf_fail(err, WEFT_FAILED, "%s", why);
@@ -298,7 +331,8 @@ static wf_needs needs(const wf_run *run, int64_t field) {
 
 static weft_status ends_early(const video_source *s, int64_t unit, weft_error *err) {
     int64_t held = wf_video_window_end(s->window);
-    double at_s = (double)unit / wf_ratio_value(s->timing.subframe_rate);
+    double at_s = s->times_s ? wf_ratio_value(s->times_s[unit])
+                             : (double)unit / wf_ratio_value(s->timing.subframe_rate);
     return wf_fail(err, WEFT_FAILED,
                    "%s: it ends after %" PRId64 " pictures, at %.3f s, and %" PRId64
                    " were expected; it was cut off, or --frames asks for more than there are",
@@ -309,7 +343,8 @@ static weft_status ends_early(const video_source *s, int64_t unit, weft_error *e
 static weft_status check_step(video_source *s, weft_error *err) {
     int64_t ticks = wf_video_window_ticks(s->window),
             picture = wf_video_window_next(s->window) - 1;
-    if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0) return WEFT_OK;
+    if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0)
+        return WEFT_OK;
     if (!picture) s->first_ticks = ticks;
     wf_rational rate = wf_ratio_mul(s->timing.subframe_rate, wf_ratio(s->step, 1));
     if (wf_video_in_step(&s->info, rate, picture, ticks - s->first_ticks)) return WEFT_OK;
@@ -344,12 +379,18 @@ static int64_t units_read(const video_source *s) {
 
 static weft_status meet_end(wf_run *run, weft_error *err) {
     video_source *s = run->source;
+    int64_t frames = frames_of(s, units_read(s));
     s->count = units_read(s);
     s->timing.subframes = s->count;
+    if (frames < 1) return too_few(run, s->count, err);
     wf_resampler_set_end(s->resampler, s->count);
-    int64_t frames = s->count ? wf_timing_frames(&s->timing) : 0;
+    if (frames < run->setup.end_frame && !run->setup.endless)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: it ends after %" PRId64 " frames, and "
+                       "--output-frames asks for %" PRId64,
+                       s->path, frames, run->setup.end_frame);
     if (frames < run->setup.end_frame) run->setup.end_frame = frames;
-    return frames < 1 ? too_few(run, s->count, err) : WEFT_OK;
+    return WEFT_OK;
 }
 
 /* Of a pipe it reads all that these fields see, and so much that they are known to be part of a
@@ -360,12 +401,9 @@ static weft_status ready(wf_run *run, int64_t field, weft_error *err) {
     int64_t frames = (field + per_frame - 1) / per_frame;
     weft_status status = WEFT_OK;
     while (!status && s->count < 0) {
-        wf_timing_desc so_far = s->timing;
-        so_far.subframes = units_read(s);
-        bool enough = so_far.subframes >= needs(run, field - 1).end && so_far.subframes &&
-                      wf_timing_frames(&so_far) >= frames;
-        if (enough) return WEFT_OK;
-        status = decode_to(s, so_far.subframes, 0, err);
+        int64_t read = units_read(s);
+        if (read >= needs(run, field - 1).end && frames_of(s, read) >= frames) return WEFT_OK;
+        status = decode_to(s, read, 0, err);
         if (!status && wf_video_window_end(s->window) >= 0) return meet_end(run, err);
     }
     return status;

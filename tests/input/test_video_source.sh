@@ -50,6 +50,10 @@ check "some pictures" exits 0 weft convert turns.y4m $box --frames 20-59 -o f.y4
 check "are fewer frames" first_code f.y4m 720 10
 check "every second one" exits 0 weft convert turns.y4m $box --frames 0-99x2 -o f.y4m
 check "is black" first_code f.y4m 64 25
+check "some frames" exits 0 weft convert turns.y4m $box --output-frames 5-9 -o f.y4m
+check "of a pipe" bash -c "cat turns.y4m | '$WEFT' convert - $box --output-frames 5-9 -o p.y4m"
+check "are the same" cmp f.y4m p.y4m
+check "more than a pipe has" fails "ends after 25 frames" weft convert <(cat turns.y4m) $box --output-frames 20-29 -o no.y4m
 check "some of a pipe" exits 0 weft convert - $box --frames 20-59 -o p.y4m <turns.y4m
 check "are the same" exits 0 weft convert turns.y4m $box --frames 20-59 -o f.y4m
 check "as of a file" cmp f.y4m p.y4m
@@ -68,7 +72,7 @@ check "is an option" value "d['input']['space'] == {'value': 'sRGB', 'reason': '
 check "a space that there is not" exits 2 weft convert turns.y4m $box --from nowhere -o f.####.exr
 check "info" exits 0 weft info turns.y4m --json
 check "says what is taken" value "d['files'][0]['input']['space']['value'] == 'rec601-525' and
-    d['files'][0]['input']['rate']['value'] == '100/1'"
+    d['files'][0]['input']['rate']['value'] == '100'"
 check "few pictures" exits 0 weft convert turns.y4m --raster 64x32@60i --overwrite -o o2.y4m
 check "are warned of" says "fields will repeat"
 check "a rate of one's own" exits 0 weft convert turns.y4m $box --subframe-rate 200 -o f.y4m
@@ -118,7 +122,7 @@ if has_libav && has ffmpeg; then
     check "a tagged file" exits 0 weft convert turns.mov --raster 64x32@25i --overwrite -o o3.y4m
     check "is not told of" [ -z "$(grep tagged said)" ]
     check "a pipe of a container" bash -c "cat turns.mkv | '$WEFT' convert - $box -o p.y4m"
-    check "is the same" cmp o3.y4m p.y4m
+    check "is the same" cmp o.y4m p.y4m
     # Milliseconds do not tell 240000/1001.
     y4m fast.y4m "W64 H32 F240000:1001 Ip A1:1 C444p10" 60 64 940
     quiet_ffmpeg -i fast.y4m -c:v ffv1 fast.mkv
@@ -127,10 +131,22 @@ if has_libav && has ffmpeg; then
     check "are one" cmp m.y4m y.y4m
     check "it replaces itself" exits 2 weft convert turns.mkv --raster 64x32@25i --overwrite -o turns.mkv
     check "which is said" says "would replace an input"
-    quiet_ffmpeg -i turns.y4m -vf "setpts=N*(1+mod(N\,3))/100/TB/2" -fps_mode passthrough -c:v ffv1 uneven.mkv
-    check "uneven times" fails "do not last equally long" weft convert uneven.mkv $box -o no.y4m
+    # White for 6 ms and black for 14 is .3 of the light of each field: 64 + 876 * .3^(1 / 2.4).
+    y4m white.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 100 940 64
+    for file in uneven.mkv uneven.mp4; do
+        quiet_ffmpeg -i white.y4m -vf "settb=1/1000,setpts=floor(N/2)*20+mod(N\,2)*6" -fps_mode passthrough \
+            -enc_time_base 1:1000 -c:v ${codec:-ffv1} ${codec:+-qp 0 -video_track_timescale 1000} $file
+        codec=libx264
+        check "times of $file" exits 0 weft convert $file $box -o u.y4m --report -
+        check "weigh its pictures" first_code u.y4m 594 24
+        check "and are told" value "d['input']['rate'] == {'value': 'irregular', 'reason': 'file'}"
+    done
+    check "some of them" exits 0 weft convert uneven.mkv $box --frames 10-59 -o u.y4m
+    check "weigh the same" first_code u.y4m 594 12
+    check "a rate in their place" exits 0 weft convert uneven.mkv $box --subframe-rate 100 -o u.y4m
+    check "makes pictures equal" first_code u.y4m 720 25
     check "uneven times of a pipe" fails "out of step" weft convert <(cat uneven.mkv) $box -o no.y4m
-    check "and when" says "0.030 s"
+    check "and when" says "0.006 s"
     check "a pipe of a container that is cut off" fails "before what it says is its end" \
         weft convert <(head -c 3000 turns.mkv) $box -o no.y4m
     head -c $(($(stat -c %s turns.mkv) / 2)) turns.mkv >cut.mkv
