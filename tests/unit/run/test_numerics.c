@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <cmocka.h>
 
 #include "color/codes/encode.h"
 #include "color/line/line.h"
 #include "color/space/space.h"
-#include "convert/base/clock.h"
 #include "filters/base/half.h"
 #include "filters/resample/resampler.h"
 
@@ -92,25 +92,41 @@ static void make_field(const wf_resampler *rs, const void *cells, bool half, flo
 
 /* ---- Light that is almost none ---- */
 
-#define ROUNDS 9
+#define ROUNDS      9
+#define MOST_SLOWER 1.5
 
-/* The least of several times for a field of these values, over that for ordinary ones: they
- * take turns. */
+static double thread_s(void) {
+    struct timespec used;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
+}
+
+/* The least of several processor times for a field of these values, over that for ordinary
+ * ones: they take turns. */
 static double slower(const wf_resampler *rs, const void *odd, const void *plain, bool half) {
     static float out[FIELD];
     double least[2] = {1e9, 1e9};
     for (int round = 0; round < ROUNDS; round++)
         for (int which = 0; which < 2; which++) {
-            double start = wf_now_s();
+            double start = thread_s();
             make_field(rs, which ? plain : odd, half, out);
-            least[which] = fmin(least[which], wf_now_s() - start);
+            least[which] = fmin(least[which], thread_s() - start);
         }
     return least[0] / least[1];
 }
 
+/* Other programs blur times, but a processor that is slow over some values is slow every time.
+ */
+static double slower_every_time(const wf_resampler *rs, const void *odd, const void *plain,
+                                bool half) {
+    double ratio = slower(rs, odd, plain, half);
+    for (int again = 0; again < 5 && ratio >= MOST_SLOWER; again++)
+        ratio = slower(rs, odd, plain, half);
+    return ratio;
+}
+
 /* Processors take many times longer over subnormal floats, unless nothing is done to them in
- * float that would show it. Sanitizers and other programs blur times: a half more is let pass
- * here. */
+ * float that would show it. Sanitizers blur times: a half more is let pass here. */
 static void subnormal_input(void **state) {
     static uint16_t halves[2][3 * CELLS_X * CELLS_Y];
     static float floats[2][3 * CELLS_X * CELLS_Y];
@@ -128,12 +144,12 @@ static void subnormal_input(void **state) {
     }
     for (int n = 0; n < 3; n++) {
         wf_resampler *rs = make_resampler(&raster, apertures[n]);
-        double half = slower(rs, halves[0], halves[1], true);
-        double single = slower(rs, floats[0], floats[1], false);
+        double half = slower_every_time(rs, halves[0], halves[1], true);
+        double single = slower_every_time(rs, floats[0], floats[1], false);
         print_message("%-8s subnormal halves take %.2f, floats %.2f times as long\n",
                       apertures[n], half, single);
-        assert_true(half < 1.5);
-        assert_true(single < 1.5);
+        assert_true(half < MOST_SLOWER);
+        assert_true(single < MOST_SLOWER);
         wf_resampler_free(rs);
     }
 }
