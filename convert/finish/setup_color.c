@@ -8,8 +8,9 @@
 #include "color/space/decode.h"
 #include "color/space/ocio/ocio.h"
 #include "convert/base/module.h"
-#include "convert/job/colors.h"
+#include "convert/finish/named_display.h"
 #include "convert/finish/setup.h"
+#include "convert/job/colors.h"
 
 static const char *given(const char *text) {
     return text && *text ? text : NULL;
@@ -149,6 +150,13 @@ static weft_status begin_with(wf_transform first, wf_setup *s, weft_error *err) 
     return WEFT_OK;
 }
 
+/* Has another transform follow s->transform. */
+static weft_status end_with(wf_transform last, wf_setup *s, weft_error *err) {
+    wf_transform first = s->transform;
+    s->transform = last;
+    return begin_with(first, s, err);
+}
+
 /* Light of other primaries becomes ACES2065-1 first. */
 static weft_status mix_first(const wf_chromaticities *primaries, wf_setup *s, weft_error *err) {
     wf_transform mix;
@@ -184,6 +192,56 @@ static weft_status open_ocio(const weft_job *job, const light *l, const char *to
     return l->primaries ? mix_first(l->primaries, s, err) : WEFT_OK;
 }
 
+/* ---- From a view's display to the raster ---- */
+
+static bool shows_as(const wf_named_display *d, const wf_space *space) {
+    const wf_decoding own = wf_decoding_of(space->curve);
+    char one[24], two[24];
+    return d->primaries == &wf_chromaticities_of[space->primaries] &&
+           !strcmp(wf_decoding_name(&d->decoding, one), wf_decoding_name(&own, two));
+}
+
+/* R'G'B' of a display becomes its light, and that the raster's R'G'B'. */
+static weft_status encode_again(const wf_named_display *d, const char *to, wf_setup *s,
+                                weft_error *err) {
+    char why[900];
+    wf_transform decode, encode;
+    if (!wf_decoding_transform(&d->decoding, &decode)) return no_memory(err);
+    weft_status status = end_with(decode, s, err);
+    if (status) return status;
+    if (!wf_builtin_from_light(d->primaries, to, &encode, why, sizeof why))
+        return wf_fail(err, WEFT_NO_MEMORY, "%s", why);
+    return end_with(encode, s, err);
+}
+
+/* A view is made for its display. High dynamic range stays that, and data what it is. */
+static weft_status settle_view(const weft_job *job, const light *l, wf_setup *s,
+                               weft_error *err) {
+    wf_ocio_display_fn *display_of;
+    wf_named_display display;
+    char name[128], why[900];
+    bool is_data = false;
+    const char *raster_space = wf_colors_of(job->raster.matrix)->space;
+    weft_status status = ocio_entry("wf_ocio_display_of", &display_of, err);
+    if (status) return status;
+    if (!display_of(l->config, job->display, job->view, name, sizeof name, &is_data, why,
+                    sizeof why))
+        return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (is_data || s->output.kind->layout == WF_LINEAR) return WEFT_OK;
+    if (!wf_named_display_of(name, &display)) {
+        wf_job_warn(
+            job,
+            "what display \"%s\" makes of codes is not known: they are written as they are",
+            name);
+        return WEFT_OK;
+    }
+    const char *to = display.hdr ? display.hdr : raster_space;
+    const wf_space *target = wf_space_find(to, why, sizeof why);
+    snprintf(s->color_space, sizeof s->color_space, "%s", to);
+    if (!target || shows_as(&display, target)) return WEFT_OK;
+    return encode_again(&display, to, s, err);
+}
+
 static weft_status choose_transform(const weft_job *job, const light *l, wf_setup *s,
                                     weft_error *err) {
     bool by_display = job->display || job->view;
@@ -194,7 +252,10 @@ static weft_status choose_transform(const weft_job *job, const light *l, wf_setu
              : job->view    ? job->view
              : job->display ? job->display
                             : "");
-    if (l->by_ocio) return open_ocio(job, l, to, s, err);
+    if (l->by_ocio) {
+        weft_status status = open_ocio(job, l, to, s, err);
+        return status || to ? status : settle_view(job, l, s, err);
+    }
     char why[900];
     if (wf_builtin_from_light(l->primaries, to, &s->transform, why, sizeof why)) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE, "%s", why);

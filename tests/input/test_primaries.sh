@@ -127,6 +127,17 @@ if [ -r "$config" ]; then
     check "sRGB - Texture" luma 526 1 plain.png "${aces[@]}" --from "sRGB - Texture"
     check "a picture's own space" luma 526 1 plain.png "${aces[@]}"
     check "primaries" exits 0 weft convert ap1.exr "${raster[@]}" --bits 8 -o b.####.png "${aces[@]}"
+    # view DISPLAY: R'G'B' of 709 that ACES's view for that display becomes.
+    view()
+    {
+        exits 0 weft convert odd.exr --from ACEScg --ocio "$config" --display "$1" --view "ACES 1.0 - SDR Video" \
+            "${raster[@]}" --bits 16 -o v.####.png || return 1
+        oiiotool --stats v.0000.png | awk '/Stats Avg/ { print $3 / 65535, $4 / 65535, $5 / 65535 }'
+    }
+    check "an sRGB display and the raster's" python3 -c "
+import sys; a, b = (list(map(float, s.split())) for s in sys.argv[1:])
+sys.exit(max(abs(x ** 2.4 - y ** 2.4) for x, y in zip(a, b)) > 1e-4 or len(a) != 3)" \
+        "$(view 'sRGB - Display')" "$(view 'Rec.1886 Rec.709 - Display')"
     check "no such space" exits 2 weft convert plain.png --ocio "$config" --from nix "${raster[@]}" -o no.####.exr
     check "black and white in turn" exits 0 weft convert turns/s.*.png --raster 32x24@24p "${aces[@]}" \
         --from "sRGB - Texture" --subframe-rate 48 --temporal-width 1 --aperture box --bits 10 --overwrite -o o.y4m

@@ -354,6 +354,7 @@ template <typename Work> bool guarded(const char *file, char *why, size_t why_si
 extern "C" {
 __attribute__((visibility("default"))) wf_ocio_open_fn wf_ocio_open;
 __attribute__((visibility("default"))) wf_ocio_input_fn wf_ocio_input_open;
+__attribute__((visibility("default"))) wf_ocio_display_fn wf_ocio_display_of;
 
 bool wf_ocio_open(const wf_ocio_query *query, wf_transform *out, char *why, size_t why_size) {
     *out = wf_transform{nullptr, nullptr, nullptr};
@@ -366,5 +367,18 @@ bool wf_ocio_input_open(const char *config, const char *from, wf_ocio_input *out
                         size_t why_size) {
     *out = wf_ocio_input{};
     return guarded(config, why, why_size, [&] { open_input(config, from, *out); });
+}
+
+bool wf_ocio_display_of(const char *config, const char *display, const char *view, char *name,
+                        size_t name_size, bool *is_data, char *why, size_t why_size) {
+    return guarded(config, why, why_size, [&] {
+        const Config c = load(config);
+        const char *shown_on = given(display) ? display : c->getDefaultDisplay();
+        const char *shown = given(view) ? view : c->getDefaultView(shown_on);
+        const char *space = c->getDisplayViewColorSpaceName(shown_on, shown);
+        OCIO::ConstColorSpaceRcPtr found = given(space) ? c->getColorSpace(space) : nullptr;
+        *is_data = found && found->isData();
+        std::snprintf(name, name_size, "%s", shown_on);
+    });
 }
 }

@@ -32,6 +32,12 @@ typedef struct wf_ocio_input {
 typedef bool wf_ocio_input_fn(const char *config, const char *from, wf_ocio_input *out,
                               char *why, size_t why_size);
 
+/* What a view is shown on: the display's name (the configuration's default one where NULL is
+ * given) and whether the view's color space is data, which no display decodes. */
+typedef bool wf_ocio_display_fn(const char *config, const char *display, const char *view,
+                                char *name, size_t name_size, bool *is_data, char *why,
+                                size_t why_size);
+
 #define WF_OCIO_AP0 "aces_interchange"
 
 #endif
