@@ -51,8 +51,11 @@ void wf_shown_free(wf_shown *shown) {
     *shown = (wf_shown){0};
 }
 
-/* Sequences are of at least this share of their numbers; else numbers are names of times. */
-#define DENSE(sequence) (2 * (sequence)->missing <= (sequence)->count)
+/* Whether an absent number is a missing file: a range has asked for it, or at least half of the
+ * numbers are there. Else numbers are names of times. */
+static bool misses(const wf_sequence *sequence) {
+    return sequence->ranged || 2 * sequence->missing <= sequence->count;
+}
 
 /* The files of a sequence that are there, with their times. */
 typedef struct timed {
@@ -106,7 +109,7 @@ static void drop_missing(wf_sequence *sequence) {
     size_t kept = 0;
     for (size_t k = 0; k < sequence->count; k++)
         if (sequence->refs[k].path) sequence->refs[kept++] = sequence->refs[k];
-    if (DENSE(sequence) && sequence->missing)
+    if (misses(sequence) && sequence->missing)
         wf_sequence_tell(sequence,
                          "%zu numbers are absent, and their times are not known: the pictures "
                          "before them are shown longer",
@@ -117,7 +120,7 @@ static void drop_missing(wf_sequence *sequence) {
 
 static weft_status settle_times(const char *input, timed *t, wf_sequence *sequence,
                                 wf_shown *shown, weft_error *err) {
-    wf_rational each = DENSE(sequence) ? even_step(t) : (wf_rational){0, 0};
+    wf_rational each = misses(sequence) ? even_step(t) : (wf_rational){0, 0};
     if (wf_ratio_given(each)) {
         wf_rational apart = wf_ratio_mul(each, sequence->number_step);
         shown->rate = wf_ratio_div(wf_ratio(1, 1), apart);

@@ -152,6 +152,7 @@ static weft_status settle_step(wf_rational selected_step, wf_rational natural,
                                const char *frames, wf_sequence *out, weft_error *err) {
     out->step = wf_ratio(1, 1);
     out->number_step = natural;
+    out->ranged = frames != NULL;
     if (!wf_ratio_given(selected_step)) return WEFT_OK;
     out->number_step = selected_step;
     out->step = wf_ratio_div(selected_step, natural);

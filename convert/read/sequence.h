@@ -22,6 +22,7 @@ typedef struct wf_sequence {
      * after x0.5 of quarters), by which a rate of subframes is divided; and in numbers, by
      * which a rate of frames is. */
     wf_rational step, number_step;
+    bool ranged;      /* a range says which numbers are selected */
     bool stepped;     /* the numbers between are taken to be left out on purpose */
     char notice[700]; /* what people should know of how the inputs were read; "": nothing */
 } wf_sequence;

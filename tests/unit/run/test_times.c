@@ -155,6 +155,9 @@ static void even_times(void **state) {
     job_done(RASTER "temporal-width=1 subframe-rate=100 overwrite", "out.####.exr", report);
     assert_non_null(strstr(report, "\"option\""));
     assert_true(job_number(report, "frames") == 4);
+    /* A range asks for numbers that are not there. */
+    job_refused(RASTER "temporal-width=1 frames=8-47 overwrite", "out.####.exr", WEFT_FAILED,
+                "subframe 16 is missing");
     char command[600];
     snprintf(command, sizeof command, "rm '%s/in.0005.exr'", job_directory);
     assert_int_equal(system(command), 0);
