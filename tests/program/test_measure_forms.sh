@@ -32,7 +32,7 @@ check "is measured" value "d['frames'] == 2"
 check "a pipe" exits 0 weft measure <(cat z.y4m) --json
 check "is measured" value "d['frames'] == 2"
 check "zeros" exits 1 weft measure <(head -c 1000 /dev/zero)
-check "are not Y4M" says "Y4M header"
+check "are not video" says "nor Y4M"
 check "for people" exits 0 weft measure z.y4m
 check "flicker is told" prints "interline flicker"
 check "a single picture" exits 0 weft measure z.0000.exr --json

@@ -106,6 +106,25 @@ static void note_packet(reading *r) {
     if (start != AV_NOPTS_VALUE && end > r->end_s) r->end_s = end;
 }
 
+/* The frame in hand, or the first while the file is being opened. */
+static int64_t frame_in_hand(const wf_video *v) {
+    return v->frame.index < 0 ? 0 : v->frame.index;
+}
+
+/* When it is shown, as far as the mean rate tells. */
+static double time_s(const wf_video *v) {
+    const reading *r = v->state;
+    AVRational rate = r->format->streams[r->stream]->avg_frame_rate;
+    return rate.num > 0 ? (double)frame_in_hand(v) / av_q2d(rate) : 0;
+}
+
+static weft_status undecodable(const wf_video *v, int code, weft_error *err) {
+    char doing[96];
+    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64 " (%.3f s)",
+             frame_in_hand(v), time_s(v));
+    return failed(v, doing, code, err);
+}
+
 /* Hands the decoder the next packet of the stream; at the end, that there are no more. */
 static weft_status feed(wf_video *v, weft_error *err) {
     reading *r = v->state;
@@ -122,13 +141,7 @@ static weft_status feed(wf_video *v, weft_error *err) {
         code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
     av_packet_unref(r->packet);
     if (code >= 0) return WEFT_OK;
-    char doing[96];
-    int64_t frame = v->frame.index < 0 ? 0 : v->frame.index;
-    AVRational rate = r->format->streams[r->stream]->avg_frame_rate;
-    double at_s = rate.num > 0 ? (double)frame / av_q2d(rate) : 0;
-    snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64 " (%.3f s)",
-             frame, at_s);
-    return failed(v, doing, code, err);
+    return undecodable(v, code, err);
 }
 
 /* Decodes until a frame is there, or the stream has ended. */
@@ -142,11 +155,11 @@ static weft_status decode(wf_video *v, weft_error *err) {
         if (code == AVERROR(EAGAIN))
             status = feed(v, err);
         else if (code < 0)
-            status = failed(v, "it cannot be decoded", code, err);
+            status = undecodable(v, code, err);
     }
     if (!status && r->have && r->frame->decode_error_flags)
-        status = wf_fail(err, WEFT_FAILED, "%s: frame %" PRId64 " is damaged", v->path,
-                         v->frame.index);
+        status = wf_fail(err, WEFT_FAILED, "%s: frame %" PRId64 " (%.3f s) is damaged", v->path,
+                         frame_in_hand(v), time_s(v));
     return status;
 }
 
@@ -291,17 +304,29 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
 
 /* ---- Reading ---- */
 
-/* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
-static void take_frame(wf_video *v) {
+/* One line of a component, whose codes lie one after the other in most formats: these are taken
+ * as they are, or bytes are widened. */
+static const uint16_t *line_codes(const wf_video *v, int p, int y) {
     reading *r = v->state;
     const AVFrame *f = r->frame;
+    const AVComponentDescriptor *c = &r->pixels->comp[p];
+    const uint8_t *line = f->data[c->plane] + (ptrdiff_t)y * f->linesize[c->plane] + c->offset;
+    bool plain = !c->shift && !(r->pixels->flags & AV_PIX_FMT_FLAG_BE);
+    if (plain && c->step == 2 && c->depth > 8 && (uintptr_t)line % 2 == 0)
+        return (const uint16_t *)(const void *)line;
+    if (plain && c->step == 1 && c->depth == 8)
+        for (int x = 0; x < v->frame.width_px[p]; x++) r->code[x] = line[x];
+    else
+        av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0, y, p,
+                            v->frame.width_px[p], 0, sizeof *r->code);
+    return r->code;
+}
+
+/* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
+static void take_frame(wf_video *v) {
     for (int p = 0; p < v->info.planes; p++)
-        for (int y = 0; y < v->frame.lines[p]; y++) {
-            av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0,
-                                y + v->info.interval_lines, p, v->frame.width_px[p], 0,
-                                sizeof *r->code);
-            wf_video_take_codes(v, p, y, r->code);
-        }
+        for (int y = 0; y < v->frame.lines[p]; y++)
+            wf_video_take_codes(v, p, y, line_codes(v, p, y + v->info.interval_lines));
 }
 
 static weft_status check_frame(const wf_video *v, weft_error *err) {
@@ -311,9 +336,11 @@ static weft_status check_frame(const wf_video *v, weft_error *err) {
         av_pix_fmt_desc_get((enum AVPixelFormat)f->format) == r->pixels)
         return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
-                   "%s: frame %" PRId64 " is %dx%d and of other pixels than the ones before it "
-                   "(%dx%d %s)",
-                   v->path, v->frame.index, f->width, f->height, v->info.width_px,
+                   "%s: frame %" PRId64
+                   " (%.3f s) is %dx%d %s, and the ones before it are %dx%d %s; cut the video "
+                   "there, and convert the pieces one by one",
+                   v->path, v->frame.index, time_s(v), f->width, f->height,
+                   av_get_pix_fmt_name((enum AVPixelFormat)f->format), v->info.width_px,
                    v->info.lines, r->pixels->name);
 }
 
@@ -360,7 +387,7 @@ static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
     if (status) return status;
     if (!r->have) return check_end(v, err);
     status = check_frame(v, err);
-    if (!status) take_frame(v);
+    if (!status && !(v->take_codes && !v->code[0])) take_frame(v);
     v->frame.timed = r->frame->best_effort_timestamp != AV_NOPTS_VALUE;
     v->frame.ticks = r->frame->best_effort_timestamp;
     av_frame_unref(r->frame);
