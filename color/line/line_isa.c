@@ -91,12 +91,19 @@ static inline float signed_as(float magnitude, float x) {
     return x < 0 ? -magnitude : magnitude;
 }
 
+#define SIGN 0x80000000u
+
+/* The sign is moved as a bit, since the loop runs for every sample of an output. */
 static void power_curve(const wf_curve *curve, float *restrict light, size_t count) {
     const wf_curve c = *curve;
     for (size_t i = 0; i < count; i++) {
-        float given = within(light[i], WF_MOST_LIGHT), x = fabsf(given);
+        uint32_t bits = bits_of(light[i]);
+        float x = float_of(bits & ~SIGN);
+        x = x == x ? x : 0;
+        x = x < WF_MOST_LIGHT ? x : WF_MOST_LIGHT;
         float signal = c.gain * power(x, c.power_high, c.power_low) - c.offset;
-        light[i] = signed_as(x < c.toe_end ? c.toe_slope * x : signal, given);
+        signal = x < c.toe_end ? c.toe_slope * x : signal;
+        light[i] = float_of(bits_of(signal) | (bits & SIGN));
     }
 }
 
