@@ -95,8 +95,9 @@ step_thread()
 step_coverage()
 {
     heading "Build that counts lines in build-coverage/"
+    # At -O1 GCC warns of lengths that it knows at -O3; that is no matter of coverage.
     build build-coverage all -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-O1 -g" \
-        -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g" -DWEFT_COVERAGE=ON || return 1
+        -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g" -DWEFT_COVERAGE=ON -DWEFT_WERROR=OFF || return 1
     find build-coverage -name '*.gcda' -delete
     heading "Its tests"
     # A library that counts lines has symbols and state of its own; no time is like that of others.

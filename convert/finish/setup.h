@@ -24,7 +24,7 @@ typedef struct wf_setup {
     wf_output output;
     wf_output_options output_options;
     char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
-    char color_space[64];            /* of what is written; "" if it has no name */
+    char color_space[128];           /* of what is written; "" if it has no name */
     wf_chromaticities primaries;     /* of light that is written as it came in */
     wf_transform decode;             /* what --from encodes becomes light before it is summed;
                                         apply is NULL where the input is taken as it is */
