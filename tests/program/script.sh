@@ -186,6 +186,40 @@ quiet_ffmpeg() { ffmpeg -nostdin -v error -y "$@"; }
 # stream FILE KEYS: what ffprobe says of the picture.
 stream() { ffprobe -v error -select_streams v -show_entries "$2" -of csv=p=0 "$1"; }
 
+# ---- weft verify ----
+
+# right FILE [OPTION..]: nothing is wrong with it.
+right() { exits 0 weft verify "$@"; }
+
+# only CHECK FILE [OPTION..]: it is wrong, this is why, and what demands it is said.
+only()
+{
+    local name=$1
+    shift
+    exits 1 weft verify --json "$@" || return 1
+    python3 - "$name" <<'END'
+import json, sys
+found = json.load(open("out"))[0]
+wrong = [c for c in found["checks"] if c["verdict"] == "wrong"]
+if [c["check"] for c in wrong] != [sys.argv[1]] or found["right"] or not wrong[0]["should"] or not wrong[0]["by"]:
+    sys.exit(f"not {sys.argv[1]} alone: {wrong}")
+END
+}
+
+# patched FROM TO KIND NAME OFFSET BYTES
+patched() { python3 "$WEFT_SOURCE/tests/program/patch_delivery.py" "$@"; }
+
+# wrong CHECK FROM KIND NAME OFFSET BYTES [OPTION..]: with bytes written over it fails this check alone.
+wrong()
+{
+    local name=$1 from=$2 to=patched.${2##*.}
+    patched "$from" "$to" "$3" "$4" "$5" "$6" || return 1
+    shift 6
+    only "$name" "$to" "$@"
+}
+
+# ---- The end ----
+
 finish()
 {
     echo "$passed passed, $failed failed, $skipped skipped"

@@ -8,36 +8,6 @@ needs_libav
 needs ffmpeg
 subframes in 32
 
-# right FILE [OPTION..]: nothing is wrong with it.
-right() { exits 0 weft verify "$@"; }
-
-# only CHECK FILE [OPTION..]: it is wrong, this is why, and what demands it is said.
-only()
-{
-    local name=$1
-    shift
-    exits 1 weft verify --json "$@" || return 1
-    python3 - "$name" <<'END'
-import json, sys
-found = json.load(open("out"))[0]
-wrong = [c for c in found["checks"] if c["verdict"] == "wrong"]
-if [c["check"] for c in wrong] != [sys.argv[1]] or found["right"] or not wrong[0]["should"] or not wrong[0]["by"]:
-    sys.exit(f"not {sys.argv[1]} alone: {wrong}")
-END
-}
-
-# patched FROM TO KIND NAME OFFSET BYTES
-patched() { python3 "$WEFT_SOURCE/tests/program/patch_delivery.py" "$@"; }
-
-# wrong CHECK FROM KIND NAME OFFSET BYTES [OPTION..]: with bytes written over it fails this check alone.
-wrong()
-{
-    local name=$1 from=$2 to=patched.${2##*.}
-    patched "$from" "$to" "$3" "$4" "$5" "$6" || return 1
-    shift 6
-    only "$name" "$to" "$@"
-}
-
 # coding FILE OFFSET: that byte of MPEG-2's first picture coding extension, with the other order of fields.
 coding()
 {
