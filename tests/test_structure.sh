@@ -89,7 +89,8 @@ convert/read        : filters/* color/* tracer/scene convert/base convert/job co
 convert/video       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
-convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish
+convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
+convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/run convert/check convert/plot

@@ -79,6 +79,9 @@ typedef struct wf_video_kind {
     weft_status (*open)(wf_video *video, wf_video_label *label, weft_error *err);
     /* Fills the frame's planes; *more is false, and nothing read, after the last. */
     weft_status (*next)(wf_video *video, bool *more, weft_error *err);
+    /* Goes to `picture`, or to one before it: frame.index becomes that of the one before the
+     * next. NULL: it reads on from where it is. */
+    weft_status (*seek)(wf_video *video, int64_t picture, weft_error *err);
     void (*close)(wf_video *video); /* after open, whatever it returned */
 } wf_video_kind;
 

@@ -237,6 +237,14 @@ weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool 
     return video->kind->next(video, more, err);
 }
 
+weft_status wf_video_seek(wf_video *video, int64_t picture, int64_t *next, weft_error *err) {
+    weft_status status = WEFT_OK;
+    if (video->kind->seek && picture > video->frame.index + 1)
+        status = video->kind->seek(video, picture, err);
+    *next = video->frame.index + 1;
+    return status;
+}
+
 void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines) {
     *width_px = video->frame.width_px[p];
     *lines = video->frame.lines[p];

@@ -22,6 +22,11 @@ weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_er
 weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
                                 weft_error *err);
 
+/* Goes forward to a picture, counted from 0, without decoding all that lie before it where the
+ * file lets it; *next is the picture that is given next, which may be any up to that one. What
+ * is given from there on is bit for bit what reading on would have given. */
+weft_status wf_video_seek(wf_video *video, int64_t picture, int64_t *next, weft_error *err);
+
 /* When the picture last given is shown, in ticks of info.tick_s from any zero; INT64_MIN: it
  * does not say. */
 int64_t wf_video_ticks(const wf_video *video);

@@ -34,4 +34,4 @@ static void libav_close(wf_video *v) {
     (void)v;
 }
 
-const wf_video_kind wf_video_libav = {libav_open, libav_next, libav_close};
+const wf_video_kind wf_video_libav = {libav_open, libav_next, NULL, libav_close};

@@ -136,4 +136,4 @@ static weft_status pictures_next(wf_video *v, bool *more, weft_error *err) {
     return status;
 }
 
-const wf_video_kind wf_video_pictures = {pictures_open, pictures_next, pictures_close};
+const wf_video_kind wf_video_pictures = {pictures_open, pictures_next, NULL, pictures_close};

@@ -22,6 +22,7 @@ struct stream {
     size_t frame_bytes, line_bytes;
     unpack_fn *unpack; /* raw formats */
     wf_y4m header;
+    off_t first_byte; /* of the frames of Y4M */
 };
 
 static weft_status failed(const wf_video *v, weft_error *err) {
@@ -124,7 +125,8 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
     status = wf_video_check_memory(v, err);
     if (status) return status;
-    info->frames = wf_y4m_count(h, s->file, ftell(s->file));
+    s->first_byte = ftello(s->file);
+    info->frames = wf_y4m_count(h, s->file, s->first_byte);
     *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
                               .interlaced = h->order == 't' || h->order == 'b',
                               .top_first = h->order == 't',
@@ -172,7 +174,17 @@ static weft_status y4m_next(wf_video *v, bool *more, weft_error *err) {
     return WEFT_OK;
 }
 
-const wf_video_kind wf_video_y4m = {y4m_open, y4m_next, close_stream};
+/* Frames that could be counted are all of one length. */
+static weft_status y4m_seek(wf_video *v, int64_t picture, weft_error *err) {
+    stream *s = v->state;
+    if (picture >= v->info.frames) return WEFT_OK;
+    off_t at = s->first_byte + picture * (off_t)(strlen("FRAME\n") + s->frame_bytes);
+    if (fseeko(s->file, at, SEEK_SET)) return failed(v, err);
+    v->frame.index = picture - 1;
+    return WEFT_OK;
+}
+
+const wf_video_kind wf_video_y4m = {y4m_open, y4m_next, y4m_seek, close_stream};
 
 /* ---- Raw frames ---- */
 
@@ -254,4 +266,4 @@ static weft_status raw_next(wf_video *v, bool *more, weft_error *err) {
     return status;
 }
 
-const wf_video_kind wf_video_raw = {raw_open, raw_next, close_stream};
+const wf_video_kind wf_video_raw = {raw_open, raw_next, NULL, close_stream};

@@ -5,9 +5,10 @@
 
 #include "convert/read/rate.h"
 #include "convert/run/fitting.h"
+#include "convert/run/time/picture_rate.h"
 #include "convert/run/pictures.h"
 #include "convert/run/subframe_check.h"
-#include "convert/run/timecode_start.h"
+#include "convert/run/time/timecode_start.h"
 
 /* run->source; the files are setup.sequence. */
 typedef struct subframes {
@@ -133,53 +134,12 @@ static weft_status settle_rate(const weft_job *job, wf_run *run, weft_error *err
     return WEFT_OK;
 }
 
-static bool is_whole(wf_rational r) {
-    return wf_ratio_given(r) && r.den == 1;
-}
-
-/* Film that was rendered at 24 runs at 24000/1001 in 59.94 fields, and the other way round: a
- * tenth of a percent slower, with no frame lost. */
-static weft_status settle_film(const weft_job *job, wf_rational *rate, weft_error *err) {
-    wf_rational film = wf_raster_film_rate(&job->raster), given = *rate;
-    if (!wf_ratio_given(given))
-        return wf_fail(err, WEFT_USAGE,
-                       "%s: --cadence 2:3 takes film at an even rate, and its weft:time are "
-                       "irregular",
-                       job->inputs[0]);
-    const wf_rational speeds[] = {{1, 1}, {1000, 1001}, {1001, 1000}};
-    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
-        *rate = wf_ratio_mul(given, speeds[i]);
-        if (!is_whole(wf_ratio_div(*rate, film))) continue;
-        if (i)
-            wf_job_warn(
-                job,
-                "%s subframes a second run at %s, since %s shows film at %s frames a second",
-                wf_rate_text(given, (char[48]){0}), wf_rate_text(*rate, (char[48]){0}),
-                job->raster.name, wf_rate_text(film, (char[48]){0}));
-        return WEFT_OK;
-    }
-    return wf_fail(err, WEFT_USAGE,
-                   "%s: --cadence 2:3 takes film, 24 or 23.976 frames a second of one subframe "
-                   "or more, such as 192, and not %s subframes a second",
-                   job->inputs[0], wf_rate_text(given, (char[48]){0}));
-}
-
-/* Pictures that last longer than a field are seen again by the next one. */
-static void warn_of_few(const wf_run *run) {
+static double mean_rate(const wf_run *run) {
     const subframes *s = run->source;
-    const weft_job *job = run->job;
-    wf_rational period = wf_raster_field_period(&job->raster);
-    double count = (double)run->setup.sequence.count, rate = wf_ratio_value(s->shown.rate);
-    if (s->shown.times_s)
-        rate = count / wf_ratio_value(wf_ratio_difference(
-                           s->shown.times_s[run->setup.sequence.count], s->shown.times_s[0]));
-    if (rate * wf_ratio_value(period) > 1 - 1e-9) return;
-    wf_job_warn(job, "%s: %.6g pictures a second are fewer than the %.6g %s of %s: %s repeat",
-                job->inputs[0], rate, 1 / wf_ratio_value(period),
-                job->raster.pulldown                ? "film frames"
-                : job->raster.scan == WF_INTERLACED ? "fields"
-                                                    : "frames",
-                job->raster.name, job->raster.scan == WF_INTERLACED ? "fields" : "frames");
+    size_t count = run->setup.sequence.count;
+    if (!s->shown.times_s) return wf_ratio_value(s->shown.rate);
+    return (double)count /
+           wf_ratio_value(wf_ratio_difference(s->shown.times_s[count], s->shown.times_s[0]));
 }
 
 /* ---- Fields ---- */
@@ -269,12 +229,12 @@ static weft_status count(wf_run *run, weft_error *err) {
     settle_decoding(run);
     weft_status status = settle_rate(run->job, run, err);
     if (!status && run->job->raster.pulldown)
-        status = settle_film(run->job, &s->shown.rate, err);
+        status = wf_settle_film(run->job, "subframes", &s->shown.rate, err);
     if (!status && *run->setup.sequence.notice)
         wf_job_warn(run->job, "%s", run->setup.sequence.notice);
     if (!status) status = settle_fields(run, err);
     if (status) return status;
-    warn_of_few(run);
+    wf_warn_of_few(run->job, mean_rate(run));
     wf_start_timecode(run->job, &run->setup, &s->first.info);
     return WEFT_OK;
 }

@@ -7,8 +7,9 @@
 #include "convert/base/range.h"
 #include "convert/read/rate.h"
 #include "convert/run/fitting.h"
+#include "convert/run/time/picture_rate.h"
 #include "convert/run/pictures.h"
-#include "convert/run/timecode_start.h"
+#include "convert/run/time/timecode_start.h"
 #include "convert/video/light.h"
 #include "convert/video/rate.h"
 #include "convert/video/window.h"
@@ -28,6 +29,7 @@ typedef struct video_source {
     wf_source_options options; /* of no consequence: nothing is read from files */
     wf_image_info first;
     int64_t picture, step, count; /* unit u is picture + u step; count -1: not known yet */
+    wf_rational stated;           /* units a second, before film is slowed or sped */
     bool keeps_rate;              /* timestamps are held against the rate */
     int64_t first_ticks;          /* of a pipe: when picture 0 is shown */
     wf_rational *times_s;         /* [count + 1], where pictures last unequally long */
@@ -221,17 +223,6 @@ static double mean_rate(const video_source *s, wf_rational rate) {
                       : wf_ratio_value(rate);
 }
 
-static void warn_of_few(const wf_run *run, wf_rational rate) {
-    const wf_raster *raster = &run->job->raster;
-    double fields = 1 / wf_ratio_value(wf_raster_field_period(raster));
-    double pictures = mean_rate(run->source, rate);
-    if (raster->pulldown || pictures >= fields * (1 - 1e-9)) return;
-    wf_job_warn(run->job,
-                "%s: %.6g pictures a second are fewer than the %.6g fields a second of %s: "
-                "fields will repeat pictures",
-                run->job->inputs[0], pictures, fields, raster->name);
-}
-
 /* ---- Fields ---- */
 
 static void describe_first(video_source *s) {
@@ -308,14 +299,16 @@ static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err)
 static weft_status count(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     const weft_job *job = run->job;
-    wf_rational rate;
+    wf_rational rate = {0, 0};
     weft_status status = make_light(run, err);
     if (!status) status = settle_pictures(job, s, err);
     if (!status) status = check_pipe(job, s, err);
     if (!status) status = settle_rate(run, &rate, err);
+    s->stated = rate;
+    if (!status && job->raster.pulldown) status = wf_settle_film(job, "pictures", &rate, err);
     if (status) return status;
     describe_first(s);
-    warn_of_few(run, rate);
+    wf_warn_of_few(job, mean_rate(s, rate));
     status = settle_fields(run, rate, err);
     if (!status) wf_start_timecode(job, &run->setup, &s->first);
     return status;
@@ -346,7 +339,7 @@ static weft_status check_step(video_source *s, weft_error *err) {
     if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0)
         return WEFT_OK;
     if (!picture) s->first_ticks = ticks;
-    wf_rational rate = wf_ratio_mul(s->timing.subframe_rate, wf_ratio(s->step, 1));
+    wf_rational rate = wf_ratio_mul(s->stated, wf_ratio(s->step, 1));
     if (wf_video_in_step(&s->info, rate, picture, ticks - s->first_ticks)) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: its pictures do not last equally long: number %" PRId64
@@ -354,6 +347,16 @@ static weft_status check_step(video_source *s, weft_error *err) {
                    "first, or give --subframe-rate to take them as equally long",
                    s->path, picture,
                    (double)(ticks - s->first_ticks) * wf_ratio_value(s->info.tick_s));
+}
+
+/* Fewer pictures are sooner decoded than passed over. */
+#define WORTH_A_JUMP 250
+
+/* Where what follows is far ahead of what was decoded last, and always at first. */
+static weft_status jump_to(video_source *s, int64_t number, weft_error *err) {
+    int64_t next = wf_video_window_next(s->window);
+    bool far = number - next > (next ? WORTH_A_JUMP : 0);
+    return far && s->info.frames >= 0 ? wf_video_window_jump(s->window, number, err) : WEFT_OK;
 }
 
 /* Decodes up to and with a unit, and keeps it; those before it are kept from `keep` on. */
@@ -422,8 +425,9 @@ static weft_status prepare(const wf_run *run, const wf_units *units, weft_error 
     int64_t later = needs(run, units->group_end).first, first = units->unit[0];
     bool again = !run->pace.fields_carried || run->job->resume;
     int64_t keep = again ? later : INT64_MAX;
-    weft_status status = WEFT_OK;
-    wf_video_window_forget(s->window, s->picture + (first < keep ? first : keep) * s->step);
+    int64_t needed = s->picture + (first < keep ? first : keep) * s->step;
+    wf_video_window_forget(s->window, needed);
+    weft_status status = jump_to(s, needed, err);
     for (int i = 0; !status && i < units->count; i++) {
         status = decode_to(s, units->unit[i], keep, err);
         bool met = wf_video_window_end(s->window) >= 0;

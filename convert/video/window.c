@@ -120,6 +120,10 @@ weft_status wf_video_window_advance(wf_video_window *w, bool keep, weft_error *e
     return WEFT_OK;
 }
 
+weft_status wf_video_window_jump(wf_video_window *w, int64_t number, weft_error *err) {
+    return wf_video_seek(w->video, number, &w->next, err);
+}
+
 bool wf_video_window_find(const wf_video_window *w, int64_t number, const uint16_t *plane[3]) {
     for (size_t i = 0; i < w->slots; i++) {
         if (w->slot[i].number != number) continue;

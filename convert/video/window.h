@@ -30,6 +30,10 @@ void wf_video_window_forget(wf_video_window *window, int64_t number);
  * wf_video_window_end instead. */
 weft_status wf_video_window_advance(wf_video_window *window, bool keep, weft_error *err);
 
+/* Goes forward to the picture `number`, or to one before it where the file cannot be entered
+ * there; what is kept stays. */
+weft_status wf_video_window_jump(wf_video_window *window, int64_t number, weft_error *err);
+
 /* The codes of a picture that is kept, until it is forgotten; false: it is not. */
 bool wf_video_window_find(const wf_video_window *window, int64_t number,
                           const uint16_t *plane[3]);

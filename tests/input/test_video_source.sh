@@ -74,7 +74,7 @@ check "info" exits 0 weft info turns.y4m --json
 check "says what is taken" value "d['files'][0]['input']['space']['value'] == 'rec601-525' and
     d['files'][0]['input']['rate']['value'] == '100'"
 check "few pictures" exits 0 weft convert turns.y4m --raster 64x32@60i --overwrite -o o2.y4m
-check "are warned of" says "fields will repeat"
+check "are warned of" says "fields repeat"
 check "a rate of one's own" exits 0 weft convert turns.y4m $box --subframe-rate 200 -o f.y4m
 check "is taken" first_code f.y4m 720 12
 

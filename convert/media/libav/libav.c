@@ -2,6 +2,7 @@
  * libavcodec can read. */
 #include "convert/media/libav/libav.h"
 
+#include "convert/media/libav/libav_reading.h"
 #include "convert/media/libav/libav_times.h"
 
 #include <inttypes.h>
@@ -15,20 +16,7 @@
 
 WEFT_API wf_libav_kind_fn wf_libav_kind;
 
-typedef struct reading {
-    AVFormatContext *format;
-    AVCodecContext *codec;
-    AVPacket *packet;
-    AVFrame *frame;
-    const AVPixFmtDescriptor *pixels;
-    int stream;
-    bool have; /* frame holds the next one */
-    bool drained;
-    int64_t packets;   /* of the stream, read so far */
-    double end_s;      /* of the last one */
-    uint16_t *code;    /* [width] */
-    AVIOContext *pipe; /* what reads video->pipe; NULL: a file */
-} reading;
+typedef wf_libav_reading reading;
 
 static weft_status failed(const wf_video *v, const char *doing, int code, weft_error *err) {
     char why[AV_ERROR_MAX_STRING_SIZE] = "";
@@ -60,7 +48,7 @@ static weft_status use_pipe(wf_video *v, weft_error *err) {
     return WEFT_OK;
 }
 
-static weft_status open_file(wf_video *v, weft_error *err) {
+static weft_status find_stream(wf_video *v, weft_error *err) {
     reading *r = v->state;
     weft_status status = v->pipe ? use_pipe(v, err) : WEFT_OK;
     if (status) return status;
@@ -96,6 +84,21 @@ static weft_status open_decoder(wf_video *v, weft_error *err) {
     return code < 0 ? failed(v, "its decoder cannot be opened", code, err) : WEFT_OK;
 }
 
+weft_status wf_libav_open_stream(wf_video *v, weft_error *err) {
+    weft_status status = find_stream(v, err);
+    return status ? status : open_decoder(v, err);
+}
+
+void wf_libav_close_stream(wf_video *v) {
+    reading *r = v->state;
+    av_frame_free(&r->frame);
+    av_packet_free(&r->packet);
+    avcodec_free_context(&r->codec);
+    avformat_close_input(&r->format);
+    if (r->pipe) av_freep(&r->pipe->buffer);
+    avio_context_free(&r->pipe);
+}
+
 /* ---- Frames ---- */
 
 static void note_packet(reading *r) {
@@ -125,6 +128,16 @@ static weft_status undecodable(const wf_video *v, int code, weft_error *err) {
     return failed(v, doing, code, err);
 }
 
+/* Whether the packet in hand is for the decoder; after a jump none is before a keyframe. */
+static bool is_wanted(reading *r) {
+    if (r->packet->stream_index != r->stream) return false;
+    if (r->until_key && r->packet->flags & AV_PKT_FLAG_KEY) {
+        r->until_key = false;
+        r->key_ticks = r->packet->pts;
+    }
+    return !r->until_key;
+}
+
 /* Hands the decoder the next packet of the stream; at the end, that there are no more. */
 static weft_status feed(wf_video *v, weft_error *err) {
     reading *r = v->state;
@@ -136,16 +149,15 @@ static weft_status feed(wf_video *v, weft_error *err) {
     }
     if (code < 0) return failed(v, "it cannot be read to its end", code, err);
     bool damaged = r->packet->flags & AV_PKT_FLAG_CORRUPT;
-    if (r->packet->stream_index == r->stream) note_packet(r);
-    if (r->packet->stream_index == r->stream)
-        code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
+    bool wanted = is_wanted(r);
+    if (wanted) note_packet(r);
+    if (wanted) code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
     av_packet_unref(r->packet);
     if (code >= 0) return WEFT_OK;
     return undecodable(v, code, err);
 }
 
-/* Decodes until a frame is there, or the stream has ended. */
-static weft_status decode(wf_video *v, weft_error *err) {
+weft_status wf_libav_decode(wf_video *v, weft_error *err) {
     reading *r = v->state;
     weft_status status = WEFT_OK;
     while (!status && !r->have) {
@@ -157,6 +169,13 @@ static weft_status decode(wf_video *v, weft_error *err) {
         else if (code < 0)
             status = undecodable(v, code, err);
     }
+    return status;
+}
+
+/* The same, and the frame is as it was coded. */
+static weft_status decode(wf_video *v, weft_error *err) {
+    const reading *r = v->state;
+    weft_status status = wf_libav_decode(v, err);
     if (!status && r->have && r->frame->decode_error_flags)
         status = wf_fail(err, WEFT_FAILED, "%s: frame %" PRId64 " (%.3f s) is damaged", v->path,
                          frame_in_hand(v), time_s(v));
@@ -286,8 +305,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     reading *r = v->state = calloc(1, sizeof *r);
     if (!r) return wf_video_no_memory(v, err);
     av_log_set_level(AV_LOG_QUIET);
-    weft_status status = open_file(v, err);
-    if (!status) status = open_decoder(v, err);
+    weft_status status = wf_libav_open_stream(v, err);
     if (!status) status = decode(v, err);
     if (!status && !r->have)
         status = wf_fail(err, WEFT_FAILED, "%s: there is no frame in its video", v->path);
@@ -296,7 +314,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     describe_stream(v, label);
     AVRational tick = r->format->streams[r->stream]->time_base;
     v->info.tick_s = wf_ratio(tick.num, tick.den);
-    if (v->options.want_times) status = wf_libav_times(v, r->stream, err);
+    if (v->options.want_times) status = wf_libav_times(v, r->stream, &r->listed, err);
     if (status) return status;
     r->code = malloc((size_t)v->info.width_px * sizeof *r->code);
     return r->code ? WEFT_OK : wf_video_no_memory(v, err);
@@ -398,17 +416,12 @@ static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
 static void libav_close(wf_video *v) {
     reading *r = v->state;
     if (!r) return;
+    wf_libav_close_stream(v);
     free(r->code);
-    av_frame_free(&r->frame);
-    av_packet_free(&r->packet);
-    avcodec_free_context(&r->codec);
-    avformat_close_input(&r->format);
-    if (r->pipe) av_freep(&r->pipe->buffer);
-    avio_context_free(&r->pipe);
     free(r);
 }
 
 const wf_video_kind *wf_libav_kind(void) {
-    static const wf_video_kind kind = {libav_open, libav_next, libav_close};
+    static const wf_video_kind kind = {libav_open, libav_next, wf_libav_seek, libav_close};
     return &kind;
 }

@@ -9,6 +9,7 @@
 typedef struct listing {
     int64_t *time;
     size_t count, capacity;
+    int64_t packets;          /* with those that are not shown */
     int64_t last, last_ticks; /* the latest time, and how long its packet lasts */
     bool all;                 /* every packet so far had a time */
 } listing;
@@ -42,6 +43,7 @@ static bool list_packets(AVFormatContext *format, int stream, listing *l) {
     for (unsigned i = 0; i < format->nb_streams; i++)
         if ((int)i != stream) format->streams[i]->discard = AVDISCARD_ALL;
     while (fits && av_read_frame(format, packet) >= 0) {
+        l->packets += packet->stream_index == stream;
         if (packet->stream_index == stream && !(packet->flags & AV_PKT_FLAG_DISCARD))
             fits = add(l, packet->pts, packet->duration);
         av_packet_unref(packet);
@@ -66,7 +68,7 @@ static bool open_again(const wf_video *v, int stream, AVFormatContext **format) 
            stream < (int)(*format)->nb_streams;
 }
 
-weft_status wf_libav_times(wf_video *v, int stream, weft_error *err) {
+weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, weft_error *err) {
     AVFormatContext *format = NULL;
     listing l = {.all = true};
     bool fits = true;
@@ -82,6 +84,7 @@ weft_status wf_libav_times(wf_video *v, int stream, weft_error *err) {
         v->info.last_ticks = l.last_ticks;
         l.time = NULL;
     }
+    *packets = l.packets;
     if (fits && l.count) v->info.frames = (int64_t)l.count;
     free(l.time);
     return fits ? WEFT_OK : wf_video_no_memory(v, err);

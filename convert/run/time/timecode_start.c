@@ -1,5 +1,5 @@
 /* The timecode of frame 0. */
-#include "convert/run/timecode_start.h"
+#include "convert/run/time/timecode_start.h"
 
 #include <string.h>
 

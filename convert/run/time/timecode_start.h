@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_TIMECODE_START_H
-#define WF_CONVERT_RUN_TIMECODE_START_H
+#ifndef WF_CONVERT_RUN_TIME_TIMECODE_START_H
+#define WF_CONVERT_RUN_TIME_TIMECODE_START_H
 
 #include "convert/media/image.h"
 #include "convert/finish/setup.h"

@@ -1,0 +1,43 @@
+#ifndef WF_CONVERT_MEDIA_LIBAV_LIBAV_READING_H
+#define WF_CONVERT_MEDIA_LIBAV_LIBAV_READING_H
+
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/pixdesc.h>
+
+#include "convert/media/video_kind.h"
+
+/* Inside the reading of video through libav: what its files share. */
+
+/* video->state. */
+typedef struct wf_libav_reading {
+    AVFormatContext *format;
+    AVCodecContext *codec;
+    AVPacket *packet;
+    AVFrame *frame;
+    const AVPixFmtDescriptor *pixels;
+    int stream;
+    bool have; /* frame holds the next one */
+    bool drained;
+    int64_t packets; /* of the stream, read so far */
+    int64_t listed;  /* of the stream, in the whole file; 0: they have not been counted */
+    double end_s;    /* of the last one */
+    bool until_key;  /* packets are passed over up to the next keyframe, which is shown at: */
+    int64_t key_ticks;
+    uint16_t *code;    /* [width] */
+    AVIOContext *pipe; /* what reads video->pipe; NULL: a file */
+} wf_libav_reading;
+
+/* Opens the file and a decoder of its video; closes what was opened of them. */
+weft_status wf_libav_open_stream(wf_video *video, weft_error *err);
+void wf_libav_close_stream(wf_video *video);
+
+/* Decodes until a frame is there, however damaged, or the stream has ended. */
+weft_status wf_libav_decode(wf_video *video, weft_error *err);
+
+/* wf_video_kind.seek: by the keyframe at or before the picture, where the listed times tell
+ * pictures apart and what is decoded from there reaches it; else from the beginning on.
+ * (libav_seek.c) */
+weft_status wf_libav_seek(wf_video *video, int64_t picture, weft_error *err);
+
+#endif
