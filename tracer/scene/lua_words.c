@@ -89,17 +89,17 @@ static int call_include(lua_State *lua) {
         wf_scene_error(lua, "include", "files include each other more than %d deep",
                        MOST_INCLUDES);
     size_t size;
-    wf_sandbox_take(lua, 0);
     char *text = wf_script_read(path, b->sandbox.memory_left, &size, why, sizeof why);
     if (!text) wf_scene_error(lua, "include", "%s", why);
     lua_pushfstring(lua, "@%s", path);
     int status = luaL_loadbufferx(lua, text, size, lua_tostring(lua, -1), "t");
     free(text);
     if (status != LUA_OK) return lua_error(lua);
+    wf_sandbox_charge(lua, (double)size / 64);
     b->include_depth++;
-    lua_call(lua, 0, 1);
+    status = lua_pcall(lua, 0, 1, 0);
     b->include_depth--;
-    return 1;
+    return status == LUA_OK ? 1 : lua_error(lua);
 }
 
 const luaL_Reg wf_lua_words[] = {{"background", call_background},

@@ -14,10 +14,19 @@ typedef struct wf_sandbox {
     lua_State *lua;
     int64_t steps_left; /* instructions; library functions are charged by what they do */
     size_t memory_left; /* bytes */
-    bool memory_ran_out, steps_ran_out;
-    int64_t steps; /* as given, for messages */
+    bool steps_ran_out;
+    bool memory_ran_out; /* Lua was refused memory, perhaps to get it after it had collected */
+    bool memory_spent;   /* a script that asked for more was ended */
+    int64_t steps;       /* as given, for messages */
     size_t memory;
     void *user; /* of whoever made it */
+    /* Gets each line that the script prints; NULL: nobody does. */
+    void (*print)(void *user, const char *line, size_t bytes);
+
+    bool running;
+    int stride;        /* instructions between two looks at the budget */
+    size_t largest;    /* block so far, bytes */
+    int64_t looked_ns; /* when the budget was last looked at, by the thread's own clock */
 } wf_sandbox;
 
 /* Makes the state; false: no memory. Its address must not change until wf_sandbox_close. */
@@ -28,6 +37,13 @@ wf_sandbox *wf_sandbox_of(lua_State *lua);
 
 /* Takes steps from the budget; raises a Lua error when they are spent. */
 void wf_sandbox_charge(lua_State *lua, double steps);
+
+/* Whether steps or memory have ended the script: nothing in it may go on. */
+bool wf_sandbox_is_spent(const wf_sandbox *sandbox);
+
+/* Raise the errors of spent steps and of spent memory. */
+void wf_sandbox_say_spent(lua_State *lua);
+void wf_sandbox_no_memory(lua_State *lua);
 
 /* Takes bytes of memory that is not Lua's own from the limit; raises a Lua error. */
 void wf_sandbox_take(lua_State *lua, size_t bytes);
