@@ -30,6 +30,7 @@ typedef struct wf_csg {
     const wf_runs *runs; /* one for each solid of the program, in its order */
     const int *solid;    /* what each is called in hits */
     int solid_count;
+    int count; /* of rays */
 } wf_csg;
 
 /* An entry of the stack on which programs are evaluated: where each ray may be inside, and

@@ -14,26 +14,28 @@ typedef struct wf_surfaces {
     _Alignas(64) double light[3][WF_PACKET], shine[3][WF_PACKET];
 } wf_surfaces;
 
-/* Light on packets, compiled for each instruction set. Loops run over all WF_PACKET places. */
+/* Light on packets, compiled for each instruction set; `count` is how many rays there are,
+ * where no rays are given. */
 typedef struct wf_light_ops {
     /* Normals turned toward where rays come from: inner surfaces show their back. */
     void (*face)(const wf_rays *rays, wf_points *normals);
     /* Copies those lanes of `from` whose hit is of the solid. */
-    void (*choose)(const int64_t *hit, int64_t solid, const double *from, double *to);
+    void (*choose)(const int64_t *hit, int64_t solid, const double *from, int count,
+                   double *to);
     /* How far off the surface rays start: share of the numbers' size. */
     void (*off_surface)(const wf_rays *rays, const double *s, double share, double *off);
     /* The way from points to a light: to its place, or against the direction it shines in. */
-    void (*ways)(const wf_points *points, const wf_points *place, wf_points *ways);
-    void (*against)(const wf_points *direction, wf_points *ways);
+    void (*ways)(const wf_points *points, const wf_points *place, int count, wf_points *ways);
+    void (*against)(const wf_points *direction, int count, wf_points *ways);
     /* 1 where the light is before the surface and the surface takes light, else 0. */
     void (*faces_light)(const double *lit, const wf_points *normals, const wf_points *ways,
-                        double *share);
+                        int count, double *share);
     /* Adds Lambert's and Blinn's light; ways of any length. */
     void (*add)(const wf_rays *rays, const wf_points *normals, const wf_points *ways,
                 const double *share, const float color[3], bool shines, wf_surfaces *surfaces);
     /* What is seen: color * light + shine, the color itself, or the background. */
     void (*sum)(const wf_surfaces *surfaces, const double *seen, const float background[3],
-                double rgb[3][WF_PACKET]);
+                int count, double rgb[3][WF_PACKET]);
 } wf_light_ops;
 
 WF_ISA_DECLARE(wf_light_ops);

@@ -5,7 +5,7 @@
 #include "tracer/rays/light.h"
 
 static void face(const wf_rays *restrict r, wf_points *restrict n) {
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(r->count); i < places; i++) {
         double x = n->x[i], y = n->y[i], z = n->z[i];
         double along = x * r->dx[i] + y * r->dy[i] + z * r->dz[i];
         double sign = along > 0 ? -1 : 1;
@@ -16,8 +16,9 @@ static void face(const wf_rays *restrict r, wf_points *restrict n) {
 }
 
 static void choose(const int64_t *restrict hit, int64_t solid, const double *restrict from,
-                   double *restrict to) {
-    for (int i = 0; i < WF_PACKET; i++) to[i] = hit[i] == solid ? from[i] : to[i];
+                   int count, double *restrict to) {
+    for (int i = 0, places = wf_places(count); i < places; i++)
+        to[i] = hit[i] == solid ? from[i] : to[i];
 }
 
 static inline double largest(double x, double y, double z) {
@@ -28,24 +29,24 @@ static inline double largest(double x, double y, double z) {
 
 static void off_surface(const wf_rays *restrict r, const double *restrict s, double share,
                         double *restrict off) {
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(r->count); i < places; i++) {
         double o = largest(r->ox[i], r->oy[i], r->oz[i]);
         double d = largest(r->dx[i], r->dy[i], r->dz[i]);
         off[i] = (o + (s[i] < HUGE_VAL ? s[i] : 0) * d) * share;
     }
 }
 
-static void ways(const wf_points *restrict p, const wf_points *restrict place,
+static void ways(const wf_points *restrict p, const wf_points *restrict place, int count,
                  wf_points *restrict way) {
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         way->x[i] = place->x[i] - p->x[i];
         way->y[i] = place->y[i] - p->y[i];
         way->z[i] = place->z[i] - p->z[i];
     }
 }
 
-static void against(const wf_points *restrict d, wf_points *restrict way) {
-    for (int i = 0; i < WF_PACKET; i++) {
+static void against(const wf_points *restrict d, int count, wf_points *restrict way) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         way->x[i] = -d->x[i];
         way->y[i] = -d->y[i];
         way->z[i] = -d->z[i];
@@ -53,8 +54,8 @@ static void against(const wf_points *restrict d, wf_points *restrict way) {
 }
 
 static void faces_light(const double *restrict lit, const wf_points *restrict n,
-                        const wf_points *restrict way, double *restrict share) {
-    for (int i = 0; i < WF_PACKET; i++) {
+                        const wf_points *restrict way, int count, double *restrict share) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double along = n->x[i] * way->x[i] + n->y[i] * way->y[i] + n->z[i] * way->z[i];
         share[i] = along > 0 ? lit[i] : 0;
     }
@@ -71,10 +72,10 @@ static inline double inverse_length(double x, double y, double z) {
 }
 
 static void lambert(const wf_points *restrict n, const wf_points *restrict way,
-                    const double *restrict share, const float color[3],
+                    const double *restrict share, const float color[3], int count,
                     wf_surfaces *restrict f) {
     double r = (double)color[0], g = (double)color[1], b = (double)color[2];
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = way->x[i], y = way->y[i], z = way->z[i];
         double cosine = (n->x[i] * x + n->y[i] * y + n->z[i] * z) * inverse_length(x, y, z);
         double light = share[i] > 0 ? share[i] * f->diffuse[i] * cosine : 0;
@@ -87,7 +88,7 @@ static void lambert(const wf_points *restrict n, const wf_points *restrict way,
 /* The cosine between the normal and half way between eye and light. */
 static void half_way(const wf_rays *restrict r, const wf_points *restrict n,
                      const wf_points *restrict way, double *restrict cosine) {
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(r->count); i < places; i++) {
         double x = way->x[i], y = way->y[i], z = way->z[i], to = inverse_length(x, y, z);
         double dx = r->dx[i], dy = r->dy[i], dz = r->dz[i], from = inverse_length(dx, dy, dz);
         double hx = x * to - dx * from, hy = y * to - dy * from, hz = z * to - dz * from;
@@ -97,8 +98,8 @@ static void half_way(const wf_rays *restrict r, const wf_points *restrict n,
 }
 
 static void highlight(const double *cosine, const double *share, const float color[3],
-                      wf_surfaces *f) {
-    for (int i = 0; i < WF_PACKET; i++) {
+                      int count, wf_surfaces *f) {
+    for (int i = 0; i < count; i++) {
         double part = share[i] * f->specular[i];
         if (!(part > 0) || !(cosine[i] > 0)) continue;
         double shine = part * pow(cosine[i], f->shininess[i]);
@@ -109,18 +110,18 @@ static void highlight(const double *cosine, const double *share, const float col
 static void add(const wf_rays *r, const wf_points *n, const wf_points *way, const double *share,
                 const float color[3], bool shines, wf_surfaces *f) {
     double cosine[WF_PACKET];
-    lambert(n, way, share, color, f);
+    lambert(n, way, share, color, r->count, f);
     if (!shines) return;
     half_way(r, n, way, cosine);
-    highlight(cosine, share, color, f);
+    highlight(cosine, share, color, r->count, f);
 }
 
 static void sum(const wf_surfaces *restrict f, const double *restrict seen,
-                const float background[3], double rgb[3][WF_PACKET]) {
+                const float background[3], int count, double rgb[3][WF_PACKET]) {
     for (int c = 0; c < 3; c++) {
         double behind = (double)background[c], *restrict out = rgb[c];
         const double *color = f->color[c], *light = f->light[c], *shine = f->shine[c];
-        for (int i = 0; i < WF_PACKET; i++) {
+        for (int i = 0, places = wf_places(count); i < places; i++) {
             double own = f->lit[i] > 0 ? color[i] * light[i] + shine[i] : color[i];
             out[i] = seen[i] < HUGE_VAL ? own : behind;
         }

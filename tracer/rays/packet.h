@@ -6,7 +6,7 @@
 #include "tracer/scene/motion.h"
 
 /* What is done to whole packets, compiled for each instruction set; all give the same bits.
- * Loops run over all WF_PACKET places of a packet, of which those past its count are copies. */
+ * Where no rays are given that have one, `count` is how many there are. */
 
 /* Cosine and sine of how far an operator has rotated by each ray's time. */
 typedef struct wf_sincos {
@@ -21,23 +21,25 @@ typedef struct wf_packet_ops {
                      wf_rays *to);
     void (*spin_in)(const wf_ready_op *op, const wf_sincos *spin, const wf_rays *from,
                     wf_rays *to);
-    void (*find_sincos)(const wf_ready_op *op, const double *dt_s, wf_sincos *spin);
+    void (*find_sincos)(const wf_ready_op *op, const double *dt_s, int count, wf_sincos *spin);
     /* Directions out of an operator's space, in place. */
-    void (*spin_out)(const wf_ready_op *op, const wf_sincos *spin, wf_points *directions);
+    void (*spin_out)(const wf_ready_op *op, const wf_sincos *spin, int count,
+                     wf_points *directions);
     /* Normals through the map whose inverse is given, in place. */
-    void (*place_normals)(const wf_affine *inverse, wf_points *normals);
+    void (*place_normals)(const wf_affine *inverse, int count, wf_points *normals);
     /* Where rays are at s. */
     void (*reach)(const wf_rays *rays, const double *s, wf_points *points);
     /* Hits of one solid alone, nearer than those there are, or as near and of a solid that
      * comes before. */
-    void (*nearer)(const wf_runs *runs, const double *rounding, int solid, wf_hits *hits);
-    void (*unit)(wf_points *directions);
+    void (*nearer)(const wf_runs *runs, const double *rounding, int solid, int count,
+                   wf_hits *hits);
+    void (*unit)(int count, wf_points *directions);
     /* How far rounding may reach along each ray for the size of where it starts: a share of
      * origin over direction. */
     void (*rounding)(const wf_rays *rays, double share, double *rounding);
-    double (*farthest)(const double *s);
-    void (*no_second_run)(wf_runs *runs);
-    /* The boxes of all places' origins and directions. */
+    double (*farthest)(const double *s, int count);
+    void (*no_second_run)(wf_runs *runs, int count);
+    /* The boxes of all origins and directions. */
     void (*box)(const wf_rays *rays, wf_bounds *o, wf_bounds *d);
 } wf_packet_ops;
 

@@ -1,5 +1,6 @@
 /* Packets through operators and into hits. */
 #include <math.h>
+#include <string.h>
 
 #include "filters/base/isa_file.h"
 #include "tracer/rays/packet.h"
@@ -8,18 +9,19 @@
 /* ---- Rays into spaces ---- */
 
 /* One row of a matrix over x, y, z. */
-static void row(const double m[3], double shift, const double *restrict x,
+static void row(const double m[3], double shift, int count, const double *restrict x,
                 const double *restrict y, const double *restrict z, double *restrict to) {
     double a = m[0], b = m[1], c = m[2];
-    for (int i = 0; i < WF_PACKET; i++) to[i] = a * x[i] + b * y[i] + c * z[i] + shift;
+    for (int i = 0, n = wf_places(count); i < n; i++)
+        to[i] = a * x[i] + b * y[i] + c * z[i] + shift;
 }
 
 /* The same of directions. What is left where all cancels is rounding, and none: a ray along a
  * plane must not meet it far away. */
-static void row_along(const double m[3], const double *restrict x, const double *restrict y,
-                      const double *restrict z, double *restrict to) {
+static void row_along(const double m[3], int count, const double *restrict x,
+                      const double *restrict y, const double *restrict z, double *restrict to) {
     double a = m[0], b = m[1], c = m[2];
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, n = wf_places(count); i < n; i++) {
         double p = a * x[i], q = b * y[i], r = c * z[i], sum = p + q + r;
         double size = fabs(p) + fabs(q) + fabs(r);
         to[i] = fabs(sum) > size * 0x1p-50 ? sum : 0;
@@ -28,28 +30,31 @@ static void row_along(const double m[3], const double *restrict x, const double 
 
 static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
     const double *m[3] = {a->m[0], a->m[1], a->m[2]};
-    row(m[0], a->d.x, from->ox, from->oy, from->oz, to->ox);
-    row(m[1], a->d.y, from->ox, from->oy, from->oz, to->oy);
-    row(m[2], a->d.z, from->ox, from->oy, from->oz, to->oz);
-    row_along(m[0], from->dx, from->dy, from->dz, to->dx);
-    row_along(m[1], from->dx, from->dy, from->dz, to->dy);
-    row_along(m[2], from->dx, from->dy, from->dz, to->dz);
+    row(m[0], a->d.x, from->count, from->ox, from->oy, from->oz, to->ox);
+    row(m[1], a->d.y, from->count, from->ox, from->oy, from->oz, to->oy);
+    row(m[2], a->d.z, from->count, from->ox, from->oy, from->oz, to->oz);
+    row_along(m[0], from->count, from->dx, from->dy, from->dz, to->dx);
+    row_along(m[1], from->count, from->dx, from->dy, from->dz, to->dy);
+    row_along(m[2], from->count, from->dx, from->dy, from->dz, to->dz);
     to->count = from->count;
 }
 
 static void drift_in(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
                      wf_rays *to) {
     wf_vec o = op->offset, v = op->op->velocity;
-    *to = *from;
-    for (int i = 0; i < WF_PACKET; i++) {
-        to->ox[i] -= o.x + v.x * dt_s[i];
-        to->oy[i] -= o.y + v.y * dt_s[i];
-        to->oz[i] -= o.z + v.z * dt_s[i];
+    to->count = from->count;
+    for (int i = 0, n = wf_places(from->count); i < n; i++) {
+        to->ox[i] = from->ox[i] - (o.x + v.x * dt_s[i]);
+        to->oy[i] = from->oy[i] - (o.y + v.y * dt_s[i]);
+        to->oz[i] = from->oz[i] - (o.z + v.z * dt_s[i]);
+        to->dx[i] = from->dx[i];
+        to->dy[i] = from->dy[i];
+        to->dz[i] = from->dz[i];
     }
 }
 
-static void find_sincos(const wf_ready_op *op, const double *dt_s, wf_sincos *spin) {
-    for (int i = 0; i < WF_PACKET; i++)
+static void find_sincos(const wf_ready_op *op, const double *dt_s, int count, wf_sincos *spin) {
+    for (int i = 0, n = wf_places(count); i < n; i++)
         wf_sincos_turns(op->phase + op->turns_a_second * dt_s[i], &spin->cos[i], &spin->sin[i]);
 }
 
@@ -65,38 +70,46 @@ static inline void rotate(wf_vec k, double c, double s, double *x, double *y, do
 static void spin_in(const wf_ready_op *op, const wf_sincos *spin, const wf_rays *from,
                     wf_rays *to) {
     wf_vec k = op->op->axis, m = op->op->center;
-    *to = *from;
-    for (int i = 0; i < WF_PACKET; i++) {
+    to->count = from->count;
+    for (int i = 0, n = wf_places(from->count); i < n; i++) {
         double c = spin->cos[i], s = -spin->sin[i];
         double x = from->ox[i] - m.x, y = from->oy[i] - m.y, z = from->oz[i] - m.z;
         rotate(k, c, s, &x, &y, &z);
         to->ox[i] = x + m.x;
         to->oy[i] = y + m.y;
         to->oz[i] = z + m.z;
-        rotate(k, c, s, &to->dx[i], &to->dy[i], &to->dz[i]);
+        x = from->dx[i], y = from->dy[i], z = from->dz[i];
+        rotate(k, c, s, &x, &y, &z);
+        to->dx[i] = x;
+        to->dy[i] = y;
+        to->dz[i] = z;
     }
 }
 
 /* ---- Directions out of them ---- */
 
-static void spin_out(const wf_ready_op *op, const wf_sincos *spin, wf_points *d) {
+static void spin_out(const wf_ready_op *op, const wf_sincos *spin, int count, wf_points *d) {
     wf_vec k = op->op->axis;
-    for (int i = 0; i < WF_PACKET; i++)
+    for (int i = 0, n = wf_places(count); i < n; i++)
         rotate(k, spin->cos[i], spin->sin[i], &d->x[i], &d->y[i], &d->z[i]);
 }
 
-static void place_normals(const wf_affine *inverse, wf_points *n) {
-    wf_points from = *n;
+static void place_normals(const wf_affine *inverse, int count, wf_points *n) {
+    wf_points from;
+    size_t bytes = (size_t)wf_places(count) * sizeof *n->x;
+    memcpy(from.x, n->x, bytes);
+    memcpy(from.y, n->y, bytes);
+    memcpy(from.z, n->z, bytes);
     double *const to[3] = {n->x, n->y, n->z};
     for (int k = 0; k < 3; k++) {
         const double turned[3] = {inverse->m[0][k], inverse->m[1][k], inverse->m[2][k]};
-        row(turned, 0, from.x, from.y, from.z, to[k]);
+        row(turned, 0, count, from.x, from.y, from.z, to[k]);
     }
 }
 
 /* The largest component is brought near 1 first, so that no size of scene overflows. */
-static void unit(wf_points *d) {
-    for (int i = 0; i < WF_PACKET; i++) {
+static void unit(int count, wf_points *d) {
+    for (int i = 0, n = wf_places(count); i < n; i++) {
         double x = fabs(d->x[i]), y = fabs(d->y[i]), z = fabs(d->z[i]);
         double far = x > y ? x : y;
         far = far > z ? far : z;
@@ -114,7 +127,7 @@ static void unit(wf_points *d) {
 /* ---- Hits ---- */
 
 static void reach(const wf_rays *r, const double *s, wf_points *p) {
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, n = wf_places(r->count); i < n; i++) {
         double at = s[i] < HUGE_VAL ? s[i] : 0;
         p->x[i] = r->ox[i] + at * r->dx[i];
         p->y[i] = r->oy[i] + at * r->dy[i];
@@ -125,8 +138,9 @@ static void reach(const wf_rays *r, const double *s, wf_points *p) {
 /* The next end of a run along each ray; the arithmetic is done on all, and chosen from, so that
  * the loop is one of vectors. */
 static void nearer_end(const double *restrict in, const double *restrict out,
-                       const double *restrict rounding, int64_t solid, wf_hits *restrict hits) {
-    for (int i = 0; i < WF_PACKET; i++) {
+                       const double *restrict rounding, int64_t solid, int count,
+                       wf_hits *restrict hits) {
+    for (int i = 0, n = wf_places(count); i < n; i++) {
         int64_t enters = in[i] > 0 ? 1 : 0;
         double s = in[i] > 0 ? in[i] : out[i], best = hits->s[i];
         double apart = rounding[i] + s * WF_ROUNDING;
@@ -139,18 +153,19 @@ static void nearer_end(const double *restrict in, const double *restrict out,
     }
 }
 
-static void nearer(const wf_runs *runs, const double *rounding, int solid, wf_hits *hits) {
-    nearer_end(runs->in[0], runs->out[0], rounding, solid, hits);
-    nearer_end(runs->in[1], runs->out[1], rounding, solid, hits);
+static void nearer(const wf_runs *runs, const double *rounding, int solid, int count,
+                   wf_hits *hits) {
+    nearer_end(runs->in[0], runs->out[0], rounding, solid, count, hits);
+    nearer_end(runs->in[1], runs->out[1], rounding, solid, count, hits);
 }
 
 /* ---- Boxes ---- */
 
 /* Eight at a time: of a single running minimum the compiler makes no vector. */
-static void span(const double *v, double *low, double *high) {
+static void span(const double *v, int count, double *low, double *high) {
     double a[8], b[8];
     for (int k = 0; k < 8; k++) a[k] = b[k] = v[k];
-    for (int i = 8; i < WF_PACKET; i += 8)
+    for (int i = 8; i < count; i += 8)
         for (int k = 0; k < 8; k++) {
             a[k] = v[i + k] < a[k] ? v[i + k] : a[k];
             b[k] = v[i + k] > b[k] ? v[i + k] : b[k];
@@ -164,12 +179,12 @@ static void span(const double *v, double *low, double *high) {
 }
 
 static void box(const wf_rays *r, wf_bounds *o, wf_bounds *d) {
-    span(r->ox, &o->low[0], &o->high[0]);
-    span(r->oy, &o->low[1], &o->high[1]);
-    span(r->oz, &o->low[2], &o->high[2]);
-    span(r->dx, &d->low[0], &d->high[0]);
-    span(r->dy, &d->low[1], &d->high[1]);
-    span(r->dz, &d->low[2], &d->high[2]);
+    span(r->ox, r->count, &o->low[0], &o->high[0]);
+    span(r->oy, r->count, &o->low[1], &o->high[1]);
+    span(r->oz, r->count, &o->low[2], &o->high[2]);
+    span(r->dx, r->count, &d->low[0], &d->high[0]);
+    span(r->dy, r->count, &d->low[1], &d->high[1]);
+    span(r->dz, r->count, &d->low[2], &d->high[2]);
 }
 
 /* ---- Bounds along rays ---- */
@@ -181,19 +196,19 @@ static inline double largest(double x, double y, double z) {
 }
 
 static void rounding(const wf_rays *restrict r, double share, double *restrict out) {
-    for (int i = 0; i < WF_PACKET; i++)
+    for (int i = 0, n = wf_places(r->count); i < n; i++)
         out[i] = largest(r->ox[i], r->oy[i], r->oz[i]) / largest(r->dx[i], r->dy[i], r->dz[i]) *
                  share;
 }
 
-static double farthest(const double *s) {
+static double farthest(const double *s, int count) {
     double low, high;
-    span(s, &low, &high);
+    span(s, count, &low, &high);
     return high;
 }
 
-static void no_second_run(wf_runs *runs) {
-    for (int i = 0; i < WF_PACKET; i++) {
+static void no_second_run(wf_runs *runs, int count) {
+    for (int i = 0, n = wf_places(count); i < n; i++) {
         runs->in[1][i] = HUGE_VAL;
         runs->out[1][i] = -HUGE_VAL;
     }

@@ -5,9 +5,14 @@
 #include "tracer/scene/scene.h"
 
 /* Rays travel in packets, one array for each component, so that loops over them vectorize.
- * Counts beyond `count` up to the next multiple of 8 hold copies of the last ray and may be
- * computed. */
+ * Loops run over the places that `count` rays take, up to the next multiple of 8; those past
+ * the count hold copies of the last ray. Arrays are of WF_PACKET places, of which those beyond
+ * hold nothing. */
 #define WF_PACKET 128
+
+static inline int wf_places(int count) {
+    return (count + 7) / 8 * 8;
+}
 
 typedef struct wf_rays {
     int count;
@@ -33,10 +38,10 @@ typedef struct wf_points {
     _Alignas(64) double x[WF_PACKET], y[WF_PACKET], z[WF_PACKET];
 } wf_points;
 
-/* Outward normals, of any length > 0, at points on (or within rounding of) the surface; all
- * WF_PACKET of them are computed. */
+/* Outward normals, of any length > 0, at `count` points on (or within rounding of) the surface.
+ */
 typedef void wf_normals_fn(const wf_solid *solid, const wf_plane *planes,
-                           const wf_points *points, wf_points *normals);
+                           const wf_points *points, int count, wf_points *normals);
 
 typedef void wf_intersect_fn(const wf_solid *solid, const wf_plane *planes, const wf_rays *rays,
                              wf_runs *runs);

@@ -5,6 +5,7 @@
  * approach to the solid's middle, so that a far camera costs no digits: what is rounded there
  * is small beside the solid. */
 #include <math.h>
+#include <string.h>
 
 #include "filters/base/isa_file.h"
 #include "tracer/rays/double_double.h"
@@ -12,7 +13,7 @@
 #include "tracer/rays/solid.h"
 
 static int padded(const wf_rays *r) {
-    return (r->count + 7) / 8 * 8;
+    return wf_places(r->count);
 }
 
 static inline double least(double a, double b) {
@@ -306,17 +307,20 @@ static void torus(const wf_solid *solid, const wf_plane *planes, const wf_rays *
 /* ---- Normals ---- */
 
 #define NORMALS                                                                                \
-    const wf_solid *solid, const wf_plane *planes, const wf_points *restrict p,                \
+    const wf_solid *solid, const wf_plane *planes, const wf_points *restrict p, int count,     \
         wf_points *restrict n
 
 static void sphere_normals(NORMALS) {
+    size_t bytes = (size_t)wf_places(count) * sizeof *n->x;
     (void)solid, (void)planes;
-    *n = *p;
+    memcpy(n->x, p->x, bytes);
+    memcpy(n->y, p->y, bytes);
+    memcpy(n->z, p->z, bytes);
 }
 
 static void box_normals(NORMALS) {
     (void)solid, (void)planes;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = fabs(p->x[i]), y = fabs(p->y[i]), z = fabs(p->z[i]);
         double far = most(x, most(y, z)), px = p->x[i], py = p->y[i], pz = p->z[i];
         n->x[i] = x == far ? px : 0;
@@ -327,7 +331,7 @@ static void box_normals(NORMALS) {
 
 static void cylinder_normals(NORMALS) {
     (void)solid, (void)planes;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = p->x[i], y = p->y[i], z = p->z[i];
         double cap = y * y > x * x + z * z ? 1 : 0, side = 1 - cap;
         n->x[i] = side * x;
@@ -341,7 +345,7 @@ static void cone_normals(NORMALS) {
     double slope = (solid->shape[1] - solid->shape[0]) / 2,
            middle = (solid->shape[1] + solid->shape[0]) / 2, tilt = 1 / sqrt(1 + slope * slope);
     (void)planes;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = p->x[i], y = p->y[i], z = p->z[i], across = sqrt(x * x + z * z);
         double to_side = fabs(across - (middle + slope * y)) * tilt;
         double cap = fabs(1 - fabs(y)) < to_side ? 1 : 0;
@@ -354,7 +358,7 @@ static void cone_normals(NORMALS) {
 
 static void torus_normals(NORMALS) {
     (void)solid, (void)planes;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = p->x[i], z = p->z[i], across = sqrt(x * x + z * z);
         double share = across > 0 ? 1 - 1 / across : 0;
         n->x[i] = x * share;
@@ -365,13 +369,14 @@ static void torus_normals(NORMALS) {
 
 static void halfspace_normals(NORMALS) {
     (void)solid, (void)planes, (void)p;
-    for (int i = 0; i < WF_PACKET; i++) n->x[i] = n->z[i] = 0, n->y[i] = 1;
+    for (int i = 0, places = wf_places(count); i < places; i++)
+        n->x[i] = n->z[i] = 0, n->y[i] = 1;
 }
 
 static void quadric_normals(NORMALS) {
     const double *q = solid->shape;
     (void)planes;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         double x = p->x[i], y = p->y[i], z = p->z[i];
         n->x[i] = 2 * q[0] * x + q[3] * y + q[5] * z + q[6];
         n->y[i] = 2 * q[1] * y + q[3] * x + q[4] * z + q[7];
@@ -382,10 +387,10 @@ static void quadric_normals(NORMALS) {
 /* The normal of the face whose plane is nearest, seen from within. */
 static void polyhedron_normals(NORMALS) {
     double best[WF_PACKET];
-    for (int i = 0; i < WF_PACKET; i++) best[i] = -HUGE_VAL;
+    for (int i = 0, places = wf_places(count); i < places; i++) best[i] = -HUGE_VAL;
     for (int k = 0; k < solid->plane_count; k++) {
         wf_plane f = planes[solid->first_plane + k];
-        for (int i = 0; i < WF_PACKET; i++) {
+        for (int i = 0, places = wf_places(count); i < places; i++) {
             double over = f.n[0] * p->x[i] + f.n[1] * p->y[i] + f.n[2] * p->z[i] - f.d;
             double was = best[i];
             best[i] = over > was ? over : was;

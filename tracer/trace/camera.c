@@ -32,7 +32,7 @@ static wf_vec add(wf_vec a, wf_vec b) {
 
 static void local_rays(const wf_tracer *t, const double *x, const double *y, wf_rays *r) {
     const wf_camera *c = &t->scene->camera;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, n = wf_places(r->count); i < n; i++) {
         wf_vec p = in_plane(c, across(t, x[i]), up(t, y[i]));
         put(r->ox, r->oy, r->oz, i, c->orthographic ? add(c->eye, p) : c->eye);
         put(r->dx, r->dy, r->dz, i, c->orthographic ? c->forward : add(c->forward, p));
@@ -43,7 +43,7 @@ static void local_rays(const wf_tracer *t, const double *x, const double *y, wf_
 
 static void carry_out(const wf_ready_op *op, const double *dt_s, wf_rays *r) {
     wf_affine map = wf_op_at(op, dt_s[0]);
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, n = wf_places(r->count); i < n; i++) {
         if (i && dt_s[i] != dt_s[i - 1]) map = wf_op_at(op, dt_s[i]);
         put(r->ox, r->oy, r->oz, i, wf_apply(&map, (wf_vec){r->ox[i], r->oy[i], r->oz[i]}));
         put(r->dx, r->dy, r->dz, i, wf_turn(&map, (wf_vec){r->dx[i], r->dy[i], r->dz[i]}));
@@ -82,7 +82,7 @@ static wf_bounds move_directions(const wf_ready_op *op, double from_s, double to
 }
 
 static void time_span(const wf_tracer *t, const wf_op *op, double *from_s, double *to_s) {
-    wf_packet ends = {.f = {0, 1}};
+    wf_packet ends = {.rays.count = 2, .f = {0, 1}};
     double dt_s[WF_PACKET];
     wf_carry_times(t, &ends, op, dt_s);
     *from_s = dt_s[0];

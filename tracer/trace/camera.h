@@ -5,8 +5,8 @@
 
 /* From places of the picture to rays. */
 
-/* Fills the packet's rays: from the eye through the places x, y ([WF_PACKET]) of the raster, as
- * the camera stands at each lane's time. */
+/* Fills the packet's rays, whose count and times are there: from the eye through the places x,
+ * y ([WF_PACKET]) of the raster, as the camera stands at each lane's time. */
 void wf_camera_rays(const wf_tracer *tracer, const double *x, const double *y,
                     wf_packet *packet);
 

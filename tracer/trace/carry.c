@@ -9,7 +9,7 @@ void wf_carry_times(const wf_tracer *t, const wf_packet *packet, const wf_op *op
     const wf_window_of_time *w = &t->window;
     double width =
         (op->own_width ? op->width_fields : w->width_fields) * t->view.field_period_s;
-    for (int i = 0; i < WF_PACKET; i++)
+    for (int i = 0, n = wf_places(packet->rays.count); i < n; i++)
         dt_s[i] = packet->late_s + (packet->f[i] - w->anchor) * width;
 }
 
@@ -26,15 +26,15 @@ static void keyed_in(const wf_ready_op *op, const double *dt_s, const wf_rays *f
                      wf_rays *to) {
     wf_affine map = wf_op_inverse_at(op, dt_s[0]);
     to->count = from->count;
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, n = wf_places(from->count); i < n; i++) {
         if (i && dt_s[i] != dt_s[i - 1]) map = wf_op_inverse_at(op, dt_s[i]);
         put_ray(&map, from, to, i);
     }
 }
 
-static void keyed_out(const wf_ready_op *op, const double *dt_s, wf_points *n) {
+static void keyed_out(const wf_ready_op *op, const double *dt_s, int count, wf_points *n) {
     wf_affine map = wf_op_at(op, dt_s[0]);
-    for (int i = 0; i < WF_PACKET; i++) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
         if (i && dt_s[i] != dt_s[i - 1]) map = wf_op_at(op, dt_s[i]);
         wf_vec v = wf_turn(&map, (wf_vec){n->x[i], n->y[i], n->z[i]});
         n->x[i] = v.x, n->y[i] = v.y, n->z[i] = v.z;
@@ -53,7 +53,7 @@ static void enter(const wf_tracer *t, const wf_rays *outer, wf_carried *c) {
         t->packet->drift_in(op, c->dt_s, outer, &c->rays);
         return;
     case WF_OP_SPIN:
-        t->packet->find_sincos(op, c->dt_s, &c->spin);
+        t->packet->find_sincos(op, c->dt_s, outer->count, &c->spin);
         t->packet->spin_in(op, &c->spin, outer, &c->rays);
         return;
     case WF_OP_KEYS:
@@ -62,11 +62,11 @@ static void enter(const wf_tracer *t, const wf_rays *outer, wf_carried *c) {
     }
 }
 
-static void leave(const wf_tracer *t, const wf_carried *c, wf_points *normals) {
+static void leave(const wf_tracer *t, const wf_carried *c, int count, wf_points *normals) {
     const wf_ready_op *op = &t->ops[c->op];
-    if (op->op->kind == WF_OP_PLACE) t->packet->place_normals(&op->inverse, normals);
-    if (op->op->kind == WF_OP_SPIN) t->packet->spin_out(op, &c->spin, normals);
-    if (op->op->kind == WF_OP_KEYS) keyed_out(op, c->dt_s, normals);
+    if (op->op->kind == WF_OP_PLACE) t->packet->place_normals(&op->inverse, count, normals);
+    if (op->op->kind == WF_OP_SPIN) t->packet->spin_out(op, &c->spin, count, normals);
+    if (op->op->kind == WF_OP_KEYS) keyed_out(op, c->dt_s, count, normals);
 }
 
 /* ---- The spaces of a packet ---- */
@@ -120,7 +120,8 @@ const wf_shaft *wf_carry_shaft(const wf_tracer *t, wf_trace_scratch *s, const wf
     return &c->shaft;
 }
 
-void wf_carry_normals(const wf_tracer *t, const wf_trace_scratch *s, int op, wf_points *n) {
-    for (; op >= 0; op = t->scene->ops[op].outer) leave(t, find_carried(s, op), n);
-    t->packet->unit(n);
+void wf_carry_normals(const wf_tracer *t, const wf_trace_scratch *s, int op, int count,
+                      wf_points *n) {
+    for (; op >= 0; op = t->scene->ops[op].outer) leave(t, find_carried(s, op), count, n);
+    t->packet->unit(count, n);
 }

@@ -24,6 +24,6 @@ const wf_shaft *wf_carry_shaft(const wf_tracer *tracer, wf_trace_scratch *scratc
 /* Directions from the space of an operator out into the world, in place, as unit vectors; to be
  * called after the packet's rays have been carried there. */
 void wf_carry_normals(const wf_tracer *tracer, const wf_trace_scratch *scratch, int op,
-                      wf_points *normals);
+                      int count, wf_points *normals);
 
 #endif

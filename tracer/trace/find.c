@@ -40,26 +40,50 @@ static wf_cull_scene cull_scene(finding *f) {
                            f};
 }
 
-static int find_parts(const finding *f, int *found) {
+/* Finds no more than soon after `most`. */
+static int find_parts(const finding *f, int most, int *found) {
     const wf_tracer *t = f->t;
     int count = t->endless_count;
     for (int n = 0; !t->skip && n < t->part_count; n++) found[n] = n;
     if (!t->skip) return t->part_count;
     memcpy(found, t->endless, (size_t)count * sizeof *found);
-    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, found + count);
-    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, found + count);
+    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, most, found + count);
+    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, most, found + count);
+}
+
+static bool cull_parts(finding *f, const int *parts, int count, wf_culls *out) {
+    const wf_cull_scene scene = cull_scene(f);
+    wf_culls_clear(out);
+    for (int n = 0; n < count; n++)
+        if (!wf_cull_part(&scene, parts[n], f->s->stack, out)) return false;
+    wf_culls_sort(out);
+    return !f->s->failed;
+}
+
+bool wf_find_few(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                 const wf_shaft *shaft, int most, bool *few, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    int count = find_parts(&f, most, s->found);
+    *few = count <= most || !t->skip;
+    return !*few || cull_parts(&f, s->found, count, out);
 }
 
 bool wf_find(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
              const wf_shaft *shaft, wf_culls *out) {
+    bool few;
+    return wf_find_few(t, s, packet, shaft, t->part_count, &few, out);
+}
+
+bool wf_find_endless(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                     const wf_shaft *shaft, wf_culls *out) {
     finding f = {t, s, packet, shaft};
-    const wf_cull_scene scene = cull_scene(&f);
-    int count = find_parts(&f, s->found);
-    wf_culls_clear(out);
-    for (int n = 0; n < count; n++)
-        if (!wf_cull_part(&scene, s->found[n], s->stack, out)) return false;
-    wf_culls_sort(out);
-    return !s->failed;
+    return cull_parts(&f, t->endless, t->endless_count, out);
+}
+
+bool wf_find_part(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                  const wf_shaft *shaft, int part, wf_culls *out) {
+    finding f = {t, s, packet, shaft};
+    return cull_parts(&f, &part, 1, out);
 }
 
 bool wf_find_again(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,

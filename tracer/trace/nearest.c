@@ -15,18 +15,19 @@ typedef struct search {
     const wf_packet *packet;
     const wf_culls *culls;
     wf_hits *hits;
-    _Alignas(64) double rounding[WF_PACKET];
+    const double *rounding;
 } search;
 
-static bool make_runs(const search *q, int solid, wf_runs *runs) {
-    const wf_solid *form = &q->t->scene->solids[solid];
-    const wf_rays *rays = wf_carry_rays(q->t, q->s, q->packet, form->op);
+static bool make_runs(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                      int solid, wf_runs *runs) {
+    const wf_solid *form = &t->scene->solids[solid];
+    const wf_rays *rays = wf_carry_rays(t, s, packet, form->op);
     wf_rays local;
     if (!rays) return false;
-    q->t->packet->place(&form->inverse, rays, &local);
-    if (wf_solid_type_of(form->kind)->most_runs < 2) q->t->packet->no_second_run(runs);
-    local.count = WF_PACKET;
-    q->t->intersect[form->kind](form, q->t->scene->planes, &local, runs);
+    t->packet->place(&form->inverse, rays, &local);
+    if (wf_solid_type_of(form->kind)->most_runs < 2)
+        t->packet->no_second_run(runs, rays->count);
+    t->intersect[form->kind](form, t->scene->planes, &local, runs);
     return true;
 }
 
@@ -43,20 +44,27 @@ static bool reserve_runs(wf_trace_scratch *s, size_t need) {
 static bool make_part_runs(const search *q, const wf_culls *culls, const wf_culled *part) {
     if (!reserve_runs(q->s, (size_t)part->solid_count)) return false;
     for (int k = 0; k < part->solid_count; k++)
-        if (!make_runs(q, culls->solid[part->solid + (size_t)k], &q->s->runs[k])) return false;
+        if (!make_runs(q->t, q->s, q->packet, culls->solid[part->solid + (size_t)k],
+                       &q->s->runs[k]))
+            return false;
     return true;
 }
 
+wf_runs *wf_nearest_runs(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                         int solid) {
+    return reserve_runs(s, 1) && make_runs(t, s, packet, solid, s->runs) ? s->runs : NULL;
+}
+
 static wf_csg program_of(const search *q, const wf_culls *culls, const wf_culled *part) {
-    return (wf_csg){culls->step + part->step, part->step_count, q->s->runs,
-                    culls->solid + part->solid, part->solid_count};
+    return (wf_csg){culls->step + part->step,   part->step_count,  q->s->runs,
+                    culls->solid + part->solid, part->solid_count, q->packet->rays.count};
 }
 
 static bool try_part(search *q, const wf_culled *part) {
     if (!make_part_runs(q, q->culls, part)) return false;
     wf_csg csg = program_of(q, q->culls, part);
     if (part->solid_count == 1)
-        q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], q->hits);
+        q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], csg.count, q->hits);
     else
         q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
     return true;
@@ -113,6 +121,14 @@ static bool find_around(search *q, int after, int *object) {
     return true;
 }
 
+bool wf_nearest_part(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                     const wf_culls *culls, const double *rounding, bool *inside,
+                     wf_hits *hits) {
+    search q = {t, s, packet, culls, hits, rounding};
+    return (!inside || starts_inside(&q, &culls->part[0], inside)) &&
+           try_part(&q, &culls->part[0]);
+}
+
 /* ---- Together ---- */
 
 static bool is_around(const int *around, int count, int object) {
@@ -126,7 +142,9 @@ static bool is_around(const int *around, int count, int object) {
 static bool nearest_of(search *q, bool whole) {
     const wf_tracer *t = q->t;
     int around[MOST_AROUND], count = 0, object = -1;
-    t->packet->rounding(&q->packet->rays, WF_ROUNDING, q->rounding);
+    _Alignas(64) double rounding[WF_PACKET];
+    t->packet->rounding(&q->packet->rays, WF_ROUNDING, rounding);
+    q->rounding = rounding;
     while (whole && count < MOST_AROUND) {
         if (!find_around(q, object, &object)) return false;
         if (object < 0) break;
@@ -135,7 +153,7 @@ static bool nearest_of(search *q, bool whole) {
     }
     for (size_t n = 0; n < q->culls->part_count; n++) {
         const wf_culled *part = &q->culls->part[n];
-        if (part->near > t->packet->farthest(q->hits->s)) break;
+        if (part->near > t->packet->farthest(q->hits->s, q->packet->rays.count)) break;
         if (count && is_around(around, count, t->parts[part->part].object)) continue;
         if (!try_part(q, part)) return false;
     }
@@ -148,21 +166,29 @@ static bool nearest_of(search *q, bool whole) {
  * many rays, each of which meets fewer, are cheaper than one. */
 #define MANY_SOLIDS 192
 
+void wf_packet_take(const wf_packet *from, const int *lane, int count, wf_packet *to) {
+    const double *const in[] = {from->rays.ox, from->rays.oy, from->rays.oz, from->rays.dx,
+                                from->rays.dy, from->rays.dz, from->f};
+    double *const out[] = {to->rays.ox, to->rays.oy, to->rays.oz, to->rays.dx,
+                           to->rays.dy, to->rays.dz, to->f};
+    to->rays.count = count;
+    to->late_s = from->late_s;
+    for (size_t n = 0; n < sizeof in / sizeof *in; n++)
+        for (int i = 0, places = wf_places(count); i < places; i++)
+            out[n][i] = in[n][lane[i < count ? i : count - 1]];
+}
+
 /* Copies `count` lanes of a packet and its hits from first on; the rest are copies of the last.
  */
 static void take_lanes(const wf_packet *from, const wf_hits *hits, int first, int count,
                        wf_packet *to, wf_hits *to_hits) {
-    const double *const in[] = {from->rays.ox, from->rays.oy, from->rays.oz, from->rays.dx,
-                                from->rays.dy, from->rays.dz, from->f,       hits->s};
-    double *const out[] = {to->rays.ox, to->rays.oy, to->rays.oz, to->rays.dx,
-                           to->rays.dy, to->rays.dz, to->f,       to_hits->s};
-    to->rays.count = count;
-    to->late_s = from->late_s;
-    for (int i = 0; i < WF_PACKET; i++) {
-        int lane = first + (i < count ? i : count - 1);
-        for (size_t n = 0; n < sizeof in / sizeof *in; n++) out[n][i] = in[n][lane];
-        to_hits->solid[i] = hits->solid[lane];
-        to_hits->entering[i] = hits->entering[lane];
+    int lane[WF_PACKET] = {0}, places = wf_places(count);
+    for (int i = 0; i < places; i++) lane[i] = first + (i < count ? i : count - 1);
+    wf_packet_take(from, lane, count, to);
+    for (int i = 0; i < places; i++) {
+        to_hits->s[i] = hits->s[lane[i]];
+        to_hits->solid[i] = hits->solid[lane[i]];
+        to_hits->entering[i] = hits->entering[lane[i]];
     }
 }
 

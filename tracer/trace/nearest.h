@@ -9,4 +9,18 @@
 bool wf_nearest(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
                 const wf_culls *culls, bool whole, wf_hits *hits);
 
+/* The same of the one part of a list. rounding: of the packet's rays; inside: NULL, or set
+ * where a ray starts inside the part. */
+bool wf_nearest_part(const wf_tracer *tracer, wf_trace_scratch *scratch,
+                     const wf_packet *packet, const wf_culls *culls, const double *rounding,
+                     bool *inside, wf_hits *hits);
+
+/* The runs of a packet's rays in one solid, which are the scratch's until more are made. NULL:
+ * no memory. */
+wf_runs *wf_nearest_runs(const wf_tracer *tracer, wf_trace_scratch *scratch,
+                         const wf_packet *packet, int solid);
+
+/* Copies `count` lanes of a packet, 1 or more. */
+void wf_packet_take(const wf_packet *from, const int *lane, int count, wf_packet *to);
+
 #endif

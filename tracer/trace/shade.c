@@ -8,6 +8,7 @@
 #include "tracer/trace/carry.h"
 #include "tracer/trace/find.h"
 #include "tracer/trace/nearest.h"
+#include "tracer/trace/shadow.h"
 
 /* Secondary rays start this far off the surface, by the size of the numbers they start from:
  * what rounding leaves on the wrong side is far nearer. */
@@ -39,7 +40,7 @@ static wf_vec direction(const wf_rays *r, int i) {
 /* ---- Surfaces ---- */
 
 static void choose(const shading *h, int64_t solid, const double *from, double *to) {
-    h->t->light->choose(h->l->hits.solid, solid, from, to);
+    h->t->light->choose(h->l->hits.solid, solid, from, h->count, to);
 }
 
 static void paint_normals(const shading *h, const wf_solid *solid, int64_t index,
@@ -48,9 +49,9 @@ static void paint_normals(const shading *h, const wf_solid *solid, int64_t index
     wf_points p, n;
     h->t->packet->place(&solid->inverse, rays, &local);
     h->t->packet->reach(&local, h->l->hits.s, &p);
-    h->t->normals[solid->kind](solid, h->t->scene->planes, &p, &n);
-    h->t->packet->place_normals(&solid->inverse, &n);
-    wf_carry_normals(h->t, h->s, solid->op, &n);
+    h->t->normals[solid->kind](solid, h->t->scene->planes, &p, h->count, &n);
+    h->t->packet->place_normals(&solid->inverse, h->count, &n);
+    wf_carry_normals(h->t, h->s, solid->op, h->count, &n);
     choose(h, index, n.x, h->l->normal.x);
     choose(h, index, n.y, h->l->normal.y);
     choose(h, index, n.z, h->l->normal.z);
@@ -150,13 +151,14 @@ static void pad(wf_packet *packet) {
 static void find_light(const shading *h, const wf_light *light, wf_points *place,
                        wf_points *shines) {
     double dt_s[WF_PACKET];
-    for (int i = 0; i < WF_PACKET; i++) {
+    int places = wf_places(h->count);
+    for (int i = 0; i < places; i++) {
         put(place, i, light->point);
         put(shines, i, light->direction);
     }
     for (int op = light->op; op >= 0; op = h->t->scene->ops[op].outer) {
         wf_carry_times(h->t, &h->l->packet, &h->t->scene->ops[op], dt_s);
-        for (int i = 0; i < WF_PACKET; i++) {
+        for (int i = 0; i < places; i++) {
             wf_affine map = wf_op_at(&h->t->ops[op], dt_s[i]);
             put(place, i, wf_apply(&map, at(place, i)));
             put(shines, i, wf_turn(&map, at(shines, i)));
@@ -182,10 +184,10 @@ static void find_ways(const shading *h, const wf_light *light, wf_points *ways, 
     wf_points place, shines;
     find_light(h, light, &place, &shines);
     if (light->kind == WF_LIGHT_DIRECTION)
-        h->t->light->against(&shines, ways);
+        h->t->light->against(&shines, h->count, ways);
     else
-        h->t->light->ways(&h->l->point, &place, ways);
-    h->t->light->faces_light(h->surface->lit, &h->l->normal, ways, share);
+        h->t->light->ways(&h->l->point, &place, h->count, ways);
+    h->t->light->faces_light(h->surface->lit, &h->l->normal, ways, h->count, share);
     if (light->kind != WF_LIGHT_SPOT && !(light->fall_off > 0)) return;
     for (int i = 0; i < h->count; i++)
         if (share[i] > 0 && light->kind != WF_LIGHT_DIRECTION)
@@ -196,7 +198,7 @@ static void find_ways(const shading *h, const wf_light *light, wf_points *ways, 
 static bool cast_shadows(const shading *h, const wf_light *light, const wf_points *ways,
                          double *share) {
     wf_trace_level *l = h->l;
-    wf_hits hits;
+    uint8_t dark[WF_PACKET];
     int lane[WF_PACKET], lanes = 0;
     double far = light->kind == WF_LIGHT_DIRECTION ? HUGE_VAL : 1 - OFF_SURFACE;
     l->shadow.rays.count = 0;
@@ -210,15 +212,9 @@ static bool cast_shadows(const shading *h, const wf_light *light, const wf_point
     if (!lanes) return true;
     pad(&l->shadow);
     h->s->counts.rays += lanes;
-    wf_hits_clear(&hits);
-    for (int i = 0; i < WF_PACKET; i++) hits.s[i] = far;
-    wf_shaft shaft = wf_shaft_of_rays(&l->shadow.rays, far);
-    wf_carry_begin(h->s);
-    if (!wf_find(h->t, h->s, &l->shadow, &shaft, &l->culls) ||
-        !wf_nearest(h->t, h->s, &l->shadow, &l->culls, false, &hits))
-        return false;
+    if (!wf_shadow(h->t, h->s, &l->shadow, far, dark)) return false;
     for (int k = 0; k < lanes; k++)
-        if (hits.solid[k] >= 0) share[lane[k]] = 0;
+        if (dark[k]) share[lane[k]] = 0;
     return true;
 }
 
@@ -316,7 +312,7 @@ static bool shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
                  .count = l->packet.rays.count,
                  .surface = &surface};
     if (!paint(&h) || !add_lights(&h)) return false;
-    t->light->sum(&surface, l->hits.s, t->scene->background, l->rgb);
+    t->light->sum(&surface, l->hits.s, t->scene->background, h.count, l->rgb);
     if (level + 1 >= s->levels) return true;
     return look_on(&h, true) && look_on(&h, false);
 }

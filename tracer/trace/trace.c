@@ -24,8 +24,10 @@ static bool make_scratch(const wf_tracer *t, wf_trace_scratch *s) {
 }
 
 wf_trace_scratch *wf_trace_scratch_new(const wf_tracer *t) {
-    wf_trace_scratch *s = calloc(1, sizeof *s);
+    size_t bytes = (sizeof(wf_trace_scratch) + 63) / 64 * 64;
+    wf_trace_scratch *s = aligned_alloc(64, bytes);
     if (!s) return NULL;
+    memset(s, 0, bytes);
     if (make_scratch(t, s)) return s;
     wf_trace_scratch_free(s);
     return NULL;
@@ -45,6 +47,9 @@ void wf_trace_scratch_free(wf_trace_scratch *s) {
     free(s->level);
     free(s->runs);
     wf_culls_free(&s->joined);
+    wf_culls_free(&s->alone);
+    wf_culls_free(&s->around);
+    wf_culls_free(&s->shadow);
     free(s->joined_in);
     free(s);
 }

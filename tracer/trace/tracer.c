@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "tracer/trace/parts.h"
+#include "tracer/trace/wide.h"
 
 /* ---- Life ---- */
 
@@ -36,6 +37,7 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
     t->packet = wf_packet_ops_best();
     t->csg = wf_csg_ops_best();
     t->light = wf_light_ops_best();
+    t->walk = wf_walk_ops_best();
     t->intersect = wf_solid_ops_best()->intersect;
     t->normals = wf_solid_ops_best()->normals;
     t->textures = wf_texture_ops_best()->color;
@@ -54,6 +56,8 @@ void wf_tracer_free(wf_tracer *t) {
     if (!t) return;
     wf_tree_free(&t->still_tree);
     wf_tree_free(&t->moving_tree);
+    wf_wide_free(&t->still_wide);
+    wf_wide_free(&t->moving_wide);
     free(t->parts);
     free(t->sibling);
     free(t->lit);
@@ -115,7 +119,9 @@ static void bound_part(wf_tracer *t, int index) {
 static void sort_part(wf_tracer *t, int n) {
     bound_part(t, n);
     if (wf_bounds_empty(&t->part_bounds[n])) return;
-    if (!wf_bounds_finite(&t->part_bounds[n]))
+    bool finite = wf_bounds_finite(&t->part_bounds[n]);
+    t->endless_sibling |= !finite && t->sibling[t->parts[n].object];
+    if (!finite)
         t->endless[t->endless_count++] = n;
     else if (t->parts[n].moves)
         t->moving[t->moving_count++] = n;
@@ -132,7 +138,8 @@ static bool sort_still_parts(wf_tracer *t) {
             sort_part(t, n);
     }
     t->endless_still = t->endless_count;
-    return wf_tree_new(t->part_bounds, t->still, t->still_count, &t->still_tree);
+    return wf_tree_new(t->part_bounds, t->still, t->still_count, &t->still_tree) &&
+           wf_wide_new(t->part_bounds, t->still, t->still_count, &t->still_wide);
 }
 
 bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
@@ -146,5 +153,7 @@ bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
     t->endless_count = t->endless_still;
     for (int n = 0; n < t->mover_count; n++) sort_part(t, t->movers[n]);
     wf_tree_free(&t->moving_tree);
-    return wf_tree_new(t->part_bounds, t->moving, t->moving_count, &t->moving_tree);
+    wf_wide_free(&t->moving_wide);
+    return wf_tree_new(t->part_bounds, t->moving, t->moving_count, &t->moving_tree) &&
+           wf_wide_new(t->part_bounds, t->moving, t->moving_count, &t->moving_wide);
 }

@@ -4,6 +4,7 @@
 #include "tracer/rays/light.h"
 #include "tracer/rays/packet.h"
 #include "tracer/rays/texture.h"
+#include "tracer/rays/walk.h"
 #include "tracer/trace/cull.h"
 #include "tracer/trace/tracer.h"
 #include "tracer/trace/tree.h"
@@ -16,12 +17,14 @@ struct wf_tracer {
     const wf_packet_ops *packet;
     const wf_csg_ops *csg;
     const wf_light_ops *light;
+    const wf_walk_ops *walk;
     wf_intersect_fn *const *intersect;
     wf_normals_fn *const *normals;
     wf_texture_fn *const *textures;
     wf_part *parts;
-    bool *sibling; /* [object]: it has several parts */
-    bool *lit;     /* [part]: light falls on it, so that shadows do */
+    bool *sibling;        /* [object]: it has several parts */
+    bool endless_sibling; /* of such an object a part has no end */
+    bool *lit;            /* [part]: light falls on it, so that shadows do */
     bool *clear; /* [part]: it mirrors or lets light through: what is seen in it may be anywhere
                   */
     int part_count, most_stack;
@@ -38,6 +41,7 @@ struct wf_tracer {
     int endless_still;        /* of the endless ones, which come first */
     int *movers, mover_count; /* all parts that move, seen in the window or not */
     wf_tree still_tree, moving_tree;
+    wf_walk_tree still_wide, moving_wide; /* the same parts, for single rays */
 };
 
 /* One packet in one operator's space. */
@@ -81,6 +85,15 @@ struct wf_trace_scratch {
         carried_capacity; /* [op]: index, if its entry says the same op */
     wf_runs *runs;
     size_t runs_capacity;
+
+    /* One ray of a packet, what it meets, and what the parts that it meets are for it. */
+    wf_packet ray;
+    wf_hits hit;
+    wf_culls alone, around, shadow;
+
+    /* Some of a packet's rays. */
+    wf_packet some;
+    wf_hits some_hits;
 
     /* An object as the union that it is, for rays that start inside of it. */
     wf_culls joined;

@@ -14,17 +14,17 @@ typedef struct builder {
     wf_tree *tree;
 } builder;
 
-static double middle(const builder *b, int item, int axis) {
-    const wf_bounds *box = &b->bounds[item];
+static double middle(const wf_bounds *bounds, int item, int axis) {
+    const wf_bounds *box = &bounds[item];
     return box->low[axis] / 2 + box->high[axis] / 2;
 }
 
 /* The axis along which the middles of the boxes lie widest apart. */
-static int widest(const builder *b, const int *items, int count) {
+static int widest(const wf_bounds *bounds, const int *items, int count) {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int i = 0; i < count; i++)
         for (int k = 0; k < 3; k++) {
-            double m = middle(b, items[i], k);
+            double m = middle(bounds, items[i], k);
             low[k] = m < low[k] ? m : low[k];
             high[k] = m > high[k] ? m : high[k];
         }
@@ -40,15 +40,16 @@ static void swap(int *a, int *b) {
     *b = t;
 }
 
-/* Puts the smaller half first (quickselect about the middle of three). */
-static void halve(const builder *b, int *items, int count, int axis) {
+/* Quickselect about the middle one. */
+void wf_tree_halve(const wf_bounds *bounds, int *items, int count) {
+    int axis = widest(bounds, items, count);
     int low = 0, high = count - 1, half = count / 2;
     while (low < high) {
-        double pivot = middle(b, items[(low + high) / 2], axis);
+        double pivot = middle(bounds, items[(low + high) / 2], axis);
         int i = low, j = high;
         while (i <= j) {
-            while (middle(b, items[i], axis) < pivot) i++;
-            while (middle(b, items[j], axis) > pivot) j--;
+            while (middle(bounds, items[i], axis) < pivot) i++;
+            while (middle(bounds, items[j], axis) > pivot) j--;
             if (i <= j) swap(&items[i++], &items[j--]);
         }
         if (half <= j)
@@ -60,18 +61,18 @@ static void halve(const builder *b, int *items, int count, int axis) {
     }
 }
 
-static wf_bounds around(const builder *b, const int *items, int count) {
+wf_bounds wf_tree_around(const wf_bounds *bounds, const int *items, int count) {
     wf_bounds all = wf_bounds_none();
-    for (int i = 0; i < count; i++) all = wf_bounds_unite(all, b->bounds[items[i]]);
+    for (int i = 0; i < count; i++) all = wf_bounds_unite(all, bounds[items[i]]);
     return all;
 }
 
 static void build(builder *b, int node, int first, int count) {
     wf_tree *tree = b->tree;
     int *items = tree->items + first;
-    tree->nodes[node] = (wf_tree_node){around(b, items, count), first, count};
+    tree->nodes[node] = (wf_tree_node){wf_tree_around(b->bounds, items, count), first, count};
     if (count <= LEAF) return;
-    halve(b, items, count, widest(b, items, count));
+    wf_tree_halve(b->bounds, items, count);
     int child = tree->node_count;
     tree->node_count += 2;
     tree->nodes[node].first = child;
@@ -110,13 +111,13 @@ static int meet_leaf(const wf_tree *tree, const wf_tree_node *node, const wf_bou
     return n;
 }
 
-int wf_tree_meet(const wf_tree *tree, const wf_bounds *bounds, const wf_shaft *shaft,
+int wf_tree_meet(const wf_tree *tree, const wf_bounds *bounds, const wf_shaft *shaft, int most,
                  int *found) {
     int waiting[DEPTH], top = 0, n = 0;
     wf_stretch stretch;
     if (!tree->item_count) return 0;
     waiting[top++] = 0;
-    while (top > 0) {
+    while (top > 0 && n <= most) {
         const wf_tree_node *node = &tree->nodes[waiting[--top]];
         if (!wf_shaft_meets(shaft, &node->bounds, &stretch)) continue;
         if (node->count) {

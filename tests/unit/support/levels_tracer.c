@@ -8,6 +8,7 @@
 #include "tracer/rays/light.h"
 #include "tracer/rays/packet.h"
 #include "tracer/rays/texture.h"
+#include "tracer/rays/walk.h"
 
 /* ---- Packets ---- */
 
@@ -37,8 +38,12 @@ static void keep_points(level_run *r, const wf_points *p) {
     keep(r, p->x), keep(r, p->y), keep(r, p->z);
 }
 
+static int drawn_count(const level_run *r) {
+    return 1 + (int)(r->count % WF_PACKET);
+}
+
 static void fill_rays(level_run *r, wf_rays *rays) {
-    rays->count = 1 + (int)(r->count % WF_PACKET);
+    rays->count = drawn_count(r);
     fill(r, rays->ox), fill(r, rays->oy), fill(r, rays->oz);
     fill(r, rays->dx), fill(r, rays->dy), fill(r, rays->dz);
 }
@@ -97,7 +102,7 @@ static wf_affine drawn_affine(level_run *r) {
 static void place(level_run *r) {
     wf_affine a = drawn_affine(r);
     wf_rays from, to;
-    fill_rays(r, &from);
+    fill_rays(r, &from), fill_rays(r, &to);
     packet(r)->place(&a, &from, &to);
     keep_rays(r, &to);
 }
@@ -107,7 +112,7 @@ static void drift_in(level_run *r) {
     const wf_ready_op ready = {.op = &op, .offset = drawn_vec(r)};
     double dt_s[WF_PACKET];
     wf_rays from, to;
-    fill(r, dt_s), fill_rays(r, &from);
+    fill(r, dt_s), fill_rays(r, &from), fill_rays(r, &to);
     packet(r)->drift_in(&ready, dt_s, &from, &to);
     keep_rays(r, &to);
 }
@@ -117,7 +122,7 @@ static void spin_in(level_run *r) {
     const wf_ready_op ready = {.op = &op};
     wf_sincos spin;
     wf_rays from, to;
-    fill(r, spin.cos), fill(r, spin.sin), fill_rays(r, &from);
+    fill(r, spin.cos), fill(r, spin.sin), fill_rays(r, &from), fill_rays(r, &to);
     packet(r)->spin_in(&ready, &spin, &from, &to);
     keep_rays(r, &to);
 }
@@ -127,8 +132,8 @@ static void find_sincos(level_run *r) {
                                .turns_a_second = level_uniform(r, -1000, 1000)};
     double dt_s[WF_PACKET];
     wf_sincos spin;
-    fill(r, dt_s);
-    packet(r)->find_sincos(&ready, dt_s, &spin);
+    fill(r, dt_s), fill(r, spin.cos), fill(r, spin.sin);
+    packet(r)->find_sincos(&ready, dt_s, drawn_count(r), &spin);
     keep(r, spin.cos), keep(r, spin.sin);
 }
 
@@ -138,7 +143,7 @@ static void spin_out(level_run *r) {
     wf_sincos spin;
     wf_points d;
     fill(r, spin.cos), fill(r, spin.sin), fill_points(r, &d);
-    packet(r)->spin_out(&ready, &spin, &d);
+    packet(r)->spin_out(&ready, &spin, drawn_count(r), &d);
     keep_points(r, &d);
 }
 
@@ -146,7 +151,7 @@ static void place_normals(level_run *r) {
     wf_affine a = drawn_affine(r);
     wf_points n;
     fill_points(r, &n);
-    packet(r)->place_normals(&a, &n);
+    packet(r)->place_normals(&a, drawn_count(r), &n);
     keep_points(r, &n);
 }
 
@@ -154,7 +159,7 @@ static void reach(level_run *r) {
     wf_rays rays;
     wf_points p;
     double s[WF_PACKET];
-    fill_rays(r, &rays), fill(r, s);
+    fill_rays(r, &rays), fill(r, s), fill_points(r, &p);
     for (int i = 0; i < WF_PACKET; i += 5) s[i] = HUGE_VAL;
     packet(r)->reach(&rays, s, &p);
     keep_points(r, &p);
@@ -169,7 +174,7 @@ static void nearer(level_run *r) {
         rounding[i] = level_uniform(r, 0, 0.01);
         if (i % 3 == 0 && hits.s[i] < HUGE_VAL) runs.in[0][i] = hits.s[i];
     }
-    packet(r)->nearer(&runs, rounding, level_draw(r) % 8, &hits);
+    packet(r)->nearer(&runs, rounding, level_draw(r) % 8, drawn_count(r), &hits);
     keep_hits(r, &hits);
 }
 
@@ -177,14 +182,14 @@ static void unit(level_run *r) {
     wf_points d;
     fill_points(r, &d);
     for (int i = 0; i < WF_PACKET; i += 17) d.x[i] = d.y[i] = d.z[i] = 0;
-    packet(r)->unit(&d);
+    packet(r)->unit(drawn_count(r), &d);
     keep_points(r, &d);
 }
 
 static void rounding(level_run *r) {
     wf_rays rays;
     double out[WF_PACKET];
-    fill_rays(r, &rays);
+    fill_rays(r, &rays), fill(r, out);
     packet(r)->rounding(&rays, WF_ROUNDING, out);
     keep(r, out);
 }
@@ -192,14 +197,14 @@ static void rounding(level_run *r) {
 static void farthest(level_run *r) {
     double s[WF_PACKET], most;
     fill(r, s);
-    most = packet(r)->farthest(s);
+    most = packet(r)->farthest(s, drawn_count(r));
     level_keep_doubles(r, &most, 1);
 }
 
 static void no_second_run(level_run *r) {
     wf_runs runs;
     fill_runs(r, &runs);
-    packet(r)->no_second_run(&runs);
+    packet(r)->no_second_run(&runs, drawn_count(r));
     keep_runs(r, &runs);
 }
 
@@ -270,7 +275,7 @@ static void normals(level_run *r, wf_solid_kind kind) {
     wf_points p, n;
     fill_points(r, &p), fill_points(r, &n); /* no face is nearest to NaN: n stays */
     for (int i = 0; i < WF_PACKET; i += 3) p.x[i] = 1, p.y[i] = i % 2 ? 1 : p.y[i];
-    wf_solid_ops_at(r->level)->normals[kind](&s, planes, &p, &n);
+    wf_solid_ops_at(r->level)->normals[kind](&s, planes, &p, drawn_count(r), &n);
     keep_points(r, &n);
 }
 
@@ -320,7 +325,7 @@ static void draw_csg(level_run *r, drawn_csg *c) {
         wf_step_kind kind = (wf_step_kind)(WF_STEP_UNION + level_draw(r) % 3);
         if (k) c->steps[steps++] = (wf_step){kind, 2};
     }
-    c->csg = (wf_csg){c->steps, steps, c->runs, c->solid, solids_used};
+    c->csg = (wf_csg){c->steps, steps, c->runs, c->solid, solids_used, drawn_count(r)};
 }
 
 static void csg_nearest(level_run *r) {
@@ -338,7 +343,7 @@ static void csg_inside(level_run *r) {
     drawn_csg c;
     wf_csg_entry stack[4];
     double s[WF_PACKET];
-    uint8_t in[WF_PACKET];
+    uint8_t in[WF_PACKET] = {0};
     draw_csg(r, &c), fill(r, s);
     wf_csg_ops_at(r->level)->inside(&c.csg, s, stack, in);
     level_keep_bytes(r, in, WF_PACKET);
@@ -348,6 +353,57 @@ static const level_row csgs[] = {
     {"csg.nearest", csg_nearest, false, 0},
     {"csg.inside", csg_inside, false, 0},
 };
+
+/* ---- Walks ---- */
+
+enum { MOST_MET = 64 };
+
+typedef struct walked {
+    int64_t item[MOST_MET];
+    double near[MOST_MET];
+    size_t count;
+} walked;
+
+static bool meet(void *user, wf_walk *walk, int item, double near) {
+    walked *w = user;
+    w->item[w->count] = item;
+    w->near[w->count++] = near;
+    if (item % 5 == 0) walk->most = near + 1;
+    return item % 13 > 0;
+}
+
+/* A root with nodes in half of its places, and items in the others and in theirs. */
+static void fill_tree(level_run *r, wf_walk_node *nodes) {
+    for (int n = 0, next = 1; n < 5; n++)
+        for (int k = 0; k < WF_WALK_WIDTH; k++) {
+            bool none = level_draw(r) % 8 == 0;
+            nodes[n].child[k] = !n && k % 2 ? next++ : ~(8 * n + k);
+            for (int axis = 0; axis < 3; axis++) {
+                double at = level_uniform(r, -2, 2), size = level_uniform(r, 0, 3);
+                nodes[n].low[axis][k] = none ? HUGE_VAL : at;
+                nodes[n].high[axis][k] = none ? -HUGE_VAL : at + size;
+            }
+        }
+}
+
+static void walk_tree(level_run *r) {
+    wf_walk_node nodes[5];
+    const wf_walk_tree tree = {nodes, 5, 5};
+    walked w = {.count = 0};
+    wf_walk walk = {.most = level_draw(r) % 2 ? HUGE_VAL : 3, .meet = meet, .user = &w};
+    fill_tree(r, nodes);
+    for (int axis = 0; axis < 3; axis++) {
+        walk.o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].low[axis][0];
+        walk.d[axis] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
+    }
+    if (r->wild) walk.o[0] = level_number(r), walk.d[1] = level_number(r);
+    int64_t all = wf_walk_ops_at(r->level)->go(&tree, &walk);
+    level_keep_integers(r, &all, 1);
+    level_keep_integers(r, w.item, w.count);
+    level_keep_doubles(r, w.near, w.count);
+}
+
+static const level_row walks[] = {{"walk.go", walk_tree, false, 0}};
 
 /* ---- Light ---- */
 
@@ -368,38 +424,38 @@ static void choose(level_run *r) {
     double from[WF_PACKET], to[WF_PACKET];
     fill(r, from), fill(r, to);
     for (int i = 0; i < WF_PACKET; i++) hit[i] = (int64_t)(level_draw(r) % 4) - 1;
-    light(r)->choose(hit, level_draw(r) % 3, from, to);
+    light(r)->choose(hit, level_draw(r) % 3, from, drawn_count(r), to);
     keep(r, to);
 }
 
 static void off_surface(level_run *r) {
     wf_rays rays;
     double s[WF_PACKET], off[WF_PACKET];
-    fill_rays(r, &rays), fill(r, s);
+    fill_rays(r, &rays), fill(r, s), fill(r, off);
     light(r)->off_surface(&rays, s, 0x1p-40, off);
     keep(r, off);
 }
 
 static void ways(level_run *r) {
     wf_points p, to, way;
-    fill_points(r, &p), fill_points(r, &to);
-    light(r)->ways(&p, &to, &way);
+    fill_points(r, &p), fill_points(r, &to), fill_points(r, &way);
+    light(r)->ways(&p, &to, drawn_count(r), &way);
     keep_points(r, &way);
 }
 
 static void against(level_run *r) {
     wf_points d, way;
-    fill_points(r, &d);
-    light(r)->against(&d, &way);
+    fill_points(r, &d), fill_points(r, &way);
+    light(r)->against(&d, drawn_count(r), &way);
     keep_points(r, &way);
 }
 
 static void faces_light(level_run *r) {
     wf_points n, way;
     double lit[WF_PACKET], share[WF_PACKET];
-    fill_points(r, &n), fill_points(r, &way);
+    fill_points(r, &n), fill_points(r, &way), fill(r, share);
     for (int i = 0; i < WF_PACKET; i++) lit[i] = level_draw(r) % 2;
-    light(r)->faces_light(lit, &n, &way, share);
+    light(r)->faces_light(lit, &n, &way, drawn_count(r), share);
     keep(r, share);
 }
 
@@ -431,8 +487,9 @@ static void sum_light(level_run *r) {
     double rgb[3][WF_PACKET], seen[WF_PACKET];
     wf_surfaces f;
     fill_surfaces(r, &f), fill(r, seen);
+    for (int c = 0; c < 3; c++) fill(r, rgb[c]);
     for (int i = 0; i < WF_PACKET; i += 3) seen[i] = HUGE_VAL;
-    light(r)->sum(&f, seen, background, rgb);
+    light(r)->sum(&f, seen, background, drawn_count(r), rgb);
     for (int c = 0; c < 3; c++) keep(r, rgb[c]);
 }
 
@@ -515,6 +572,7 @@ const level_table level_tracer[] = {
     LEVEL_TABLE("tracer/rays/packet_isa.c", wf_packet_ops, packets),
     LEVEL_TABLE("tracer/rays/solid_isa.c", wf_solid_ops, solids),
     LEVEL_TABLE("tracer/rays/csg_isa.c", wf_csg_ops, csgs),
+    LEVEL_TABLE("tracer/rays/walk_isa.c", wf_walk_ops, walks),
     LEVEL_TABLE("tracer/rays/light_isa.c", wf_light_ops, lights),
     LEVEL_TABLE("tracer/rays/texture_isa.c", wf_texture_ops, textures),
     LEVEL_TABLE("tracer/sample/sampler_isa.c", wf_sampler_ops, samplers),

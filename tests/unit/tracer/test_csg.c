@@ -82,7 +82,7 @@ static void make_tree(program *p, int solids, uint32_t *seed) {
         }
     }
     for (int k = 0; k < solids; k++) make_runs(&p->runs[k], seed), p->name[k] = 100 + k;
-    p->csg = (wf_csg){p->steps, steps, p->runs, p->name, solids};
+    p->csg = (wf_csg){p->steps, steps, p->runs, p->name, solids, WF_PACKET};
 }
 
 static void nearest(const wf_csg *c, wf_hits *hits) {
@@ -179,8 +179,8 @@ static void set_algebra(void **state) {
             const int name[3] = {0, 1, 2};
             wf_hits a, b;
             for (int k = 0; k < 3; k++) make_runs(&runs[k], &seed);
-            wf_csg left = {d->left, d->left_count, runs, name, 3};
-            wf_csg right = {d->right, d->right_count, runs, name, 3};
+            wf_csg left = {d->left, d->left_count, runs, name, 3, WF_PACKET};
+            wf_csg right = {d->right, d->right_count, runs, name, 3, WF_PACKET};
             nearest(&left, &a);
             nearest(&right, &b);
             if (memcmp(a.s, b.s, sizeof a.s)) fail_msg("%s does not hold", d->name);
@@ -196,7 +196,7 @@ static void a_solid_less_itself_is_nothing(void **state) {
     wf_runs runs;
     wf_hits hits;
     make_runs(&runs, &seed);
-    wf_csg c = {steps, 3, &runs, &name, 1};
+    wf_csg c = {steps, 3, &runs, &name, 1, WF_PACKET};
     nearest(&c, &hits);
     for (int i = 0; i < WF_PACKET; i++) assert_true(isinf(hits.s[i]));
 }
@@ -217,7 +217,8 @@ static void deep_programs(void **state) {
         steps[2 * k + 2] = (wf_step){WF_STEP_UNION, 2};
     }
     make_runs(&runs, &seed);
-    wf_csg c = {steps, 2 * DEPTH + 1, &runs, &name, 1}, one = {steps, 1, &runs, &name, 1};
+    wf_csg c = {steps, 2 * DEPTH + 1, &runs, &name, 1, WF_PACKET},
+           one = {steps, 1, &runs, &name, 1, WF_PACKET};
     nearest(&c, &deep);
     nearest(&one, &plain);
     assert_memory_equal(deep.s, plain.s, sizeof deep.s);

@@ -230,10 +230,10 @@ static void points(void **state) {
 static wf_vec normal_at(const wf_solid *s, wf_vec p) {
     wf_points at, n;
     for (int i = 0; i < WF_PACKET; i++) at.x[i] = p.x, at.y[i] = p.y, at.z[i] = p.z;
-    wf_solid_ops_best()->normals[s->kind](s, faces, &at, &n);
+    wf_solid_ops_best()->normals[s->kind](s, faces, &at, WF_PACKET, &n);
     for (size_t level = 0; wf_solid_ops_at(level); level++) {
         wf_points other;
-        wf_solid_ops_at(level)->normals[s->kind](s, faces, &at, &other);
+        wf_solid_ops_at(level)->normals[s->kind](s, faces, &at, WF_PACKET, &other);
         assert_memory_equal(&other, &n, sizeof n);
     }
     return (wf_vec){n.x[9], n.y[9], n.z[9]};

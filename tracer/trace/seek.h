@@ -1,0 +1,22 @@
+#ifndef WF_TRACER_TRACE_SEEK_H
+#define WF_TRACER_TRACE_SEEK_H
+
+#include "tracer/trace/tracer_inside.h"
+
+/* What rays meet, each on its own way through trees of boxes: for packets whose rays have
+ * little in common, or of which each meets something else. */
+
+typedef enum wf_seek_what {
+    WF_SEEK_NEAREST, /* surfaces of objects as the unions that they are */
+    WF_SEEK_ANY      /* whether there is one at all, of any part */
+} wf_seek_what;
+
+/* Fills in hits, which hold how far is looked, what a search of all parts would find there, bit
+ * for bit; WF_SEEK_ANY: of what is met some surface, not the nearest. False: no memory. */
+bool wf_seek(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
+             wf_seek_what what, wf_hits *hits);
+
+/* Whether rays of this kind may be sought one by one. */
+bool wf_can_seek(const wf_tracer *tracer, wf_seek_what what);
+
+#endif
