@@ -84,6 +84,7 @@ convert/job         : filters/* color/* tracer/sample convert/base
 convert/media       : filters/* color/* convert/base convert/job
 convert/media/oiio  : filters/* convert/base convert/job convert/media
 convert/media/libav : filters/* color/* convert/base convert/job convert/media
+convert/media/structure : convert/base convert/media
 convert/read/choice :
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice
 convert/video       : filters/* color/* convert/base convert/job convert/media convert/read
@@ -91,7 +92,7 @@ convert/write       : filters/* color/* convert/base convert/job convert/media c
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
 convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
-convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
+convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/run convert/check convert/plot
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check

@@ -65,13 +65,20 @@ static bool of_601(const wf_raster *r) {
     return r->matrix == WF_601_525 || r->matrix == WF_601_625;
 }
 
+/* MXF has the aspect of the picture: 4:3 or 16:9 of 601, though its pixels do not come to that
+ * exactly. */
+static wf_rational picture_aspect(const wf_raster *r) {
+    bool narrow = wf_ratio_value(r->pixel_aspect) < 1.15;
+    if (of_601(r) && r->total_lines) return narrow ? wf_ratio(4, 3) : wf_ratio(16, 9);
+    return wf_ratio(r->width_px * r->pixel_aspect.num, r->lines * r->pixel_aspect.den);
+}
+
 wf_verdict wf_check_aspect(const wf_subject *s, wf_finding *f) {
     char is[32] = "none", should[48];
     bool mxf = s->contained && !strcmp(s->metadata.container, "mxf");
     wf_rational want = s->raster.pixel_aspect, have = s->metadata.pixel_aspect;
-    if (mxf) { /* of the picture, not of a pixel */
-        bool narrow = of_601(&s->raster) && wf_ratio_value(want) < 1.15;
-        want = narrow ? wf_ratio(4, 3) : wf_ratio(16, 9);
+    if (mxf) {
+        want = picture_aspect(&s->raster);
         have = s->metadata.aspect;
     } else if (!s->contained) {
         have = s->figures.info.raster.pixel_aspect;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "convert/check/check_whole.h"
 #include "convert/job/timecode.h"
 
 wf_verdict wf_check_timecode(const wf_subject *s, wf_finding *f) {
@@ -66,14 +67,23 @@ wf_verdict wf_check_frames(const wf_subject *s, wf_finding *f) {
     return wf_say(f, fabs(said - (double)s->figures.frames) < 0.5, is, should);
 }
 
+/* Whether a stream of sound is as long as the picture, to a frame and what its coding pads. */
+static bool fits(const wf_subject *s, double sound_s, double video_s) {
+    double frame_s = 1 / wf_ratio_value(s->raster.frame_rate);
+    return !(sound_s > 0) ||
+           fabs(sound_s - video_s) < frame_s + s->metadata.there.sound_block_s;
+}
+
 wf_verdict wf_check_sound(const wf_subject *s, wf_finding *f) {
     char is[96], should[96];
-    double frame_s = 1 / wf_ratio_value(s->raster.frame_rate);
-    double video_s = (double)s->figures.frames * frame_s;
-    snprintf(is, sizeof is, "%d channels of %d Hz, %.3f s", s->metadata.sound_channels,
-             s->metadata.sound_rate, s->metadata.sound_s);
+    const wf_metadata *c = &s->metadata;
+    double video_s = wf_picture_s(s), there_s = c->there.sound_least_s;
+    bool right = c->sound_rate == 48000 && fits(s, c->sound_s, video_s) &&
+                 fits(s, there_s, video_s) && fits(s, c->there.sound_most_s, video_s) &&
+                 (!(c->sound_s > 0) || fits(s, there_s, c->sound_s));
+    bool other = fits(s, there_s, video_s);
+    snprintf(is, sizeof is, "%d channels of %d Hz, %.3f s", c->sound_channels, c->sound_rate,
+             !other || !(c->sound_s > 0) ? there_s : c->sound_s);
     snprintf(should, sizeof should, "48000 Hz, as long as the video, %.3f s", video_s);
-    bool long_enough =
-        !(s->metadata.sound_s > 0) || fabs(s->metadata.sound_s - video_s) < frame_s;
-    return wf_say(f, s->metadata.sound_rate == 48000 && long_enough, is, should);
+    return wf_say(f, right, is, should);
 }

@@ -10,6 +10,7 @@
 #include "convert/check/check_profile.h"
 #include "convert/check/check_raster.h"
 #include "convert/check/check_time.h"
+#include "convert/check/check_whole.h"
 
 /* What a file has to have for a check to apply to it, as bits. */
 enum {
@@ -20,8 +21,9 @@ enum {
     MOV = 8,
     MXF = 16,
     SOUND = 32,
-    FIELDS = 64, /* the raster is interlaced */
-    FILES = 128, /* it is an image sequence */
+    FIELDS = 64,     /* the raster is interlaced */
+    FILES = 128,     /* it is an image sequence */
+    STRUCTURE = 256, /* its container is one whose structure is read */
 };
 
 /* Whether every file is put to a check, or only where the profile has a text, or a number, at
@@ -46,6 +48,8 @@ static const struct check {
     const char *by;
 } checks[] = {
     {"reading",    wf_check_reading,    ALWAYS, ALL, "its own header"},
+    {"whole",      wf_check_whole,      STRUCTURE, ALL, "its own structure"},
+    {"header",     wf_check_header,     STRUCTURE | MXF, ALL, "SMPTE ST 377-1"},
     {"container",  wf_check_container,  ALWAYS, TEXT(container), "%s"},
     {"codec",      wf_check_codec,      ALWAYS, TEXT(codec), "%s"},
     {"bits",       wf_check_bits,       PIXELS, NUMBER(bits), "%s"},
@@ -71,6 +75,7 @@ static const struct check {
     {"base",       wf_check_base,       CONTAINER | RASTER, ALL, "SMPTE ST 12-1, for %s"},
     {"start",      wf_check_start,      ALWAYS, TEXT(start), "%s"},
     {"frames",     wf_check_frames,     CONTAINER | PIXELS, ALL, "the container"},
+    {"durations",  wf_check_durations,  STRUCTURE | PIXELS, ALL, "what is in the file"},
     {"sound",      wf_check_sound,      SOUND | PIXELS | RASTER, ALL, "the video's length"},
     {"channels",   wf_check_channels,   ALWAYS, NUMBER(sound_channels), "%s"},
     {"tracks",     wf_check_tracks,     ALWAYS, TEXT(channels), "%s"},
@@ -91,7 +96,7 @@ static unsigned nature_of(const wf_subject *s) {
            (s->raster_known && s->raster.scan == WF_INTERLACED ? FIELDS : 0) |
            (s->contained ? CONTAINER : 0) | (mov ? MOV : 0) | (mxf ? MXF : 0) |
            (s->contained && s->metadata.sound_streams ? SOUND : 0) |
-           (s->labels.files ? FILES : 0);
+           (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0);
 }
 
 static bool is_asked(demand asked, const wf_profile *profile) {

@@ -8,12 +8,14 @@
 #include "convert/check/frame_labels.h"
 #include "convert/check/profiles.h"
 #include "convert/media/metadata.h"
+#include "convert/media/structure/structure.h"
 
 /* A file that is verified, with all that is known of it. */
 typedef struct wf_subject {
     const wf_profile *profile; /* NULL: none is asked for */
     wf_metadata metadata;
-    bool contained;     /* it has a container, and metadata is known */
+    bool contained; /* it has a container, and metadata is known */
+    wf_structure structure;
     wf_figures figures; /* frames 0: the pixels cannot be read */
     wf_raster raster;   /* that it is held to */
     bool raster_known;

@@ -5,12 +5,28 @@
 #include "convert/job/colors.h"
 #include "filters/raster/raster.h"
 
+/* What is in a file, counted packet by packet. */
+typedef struct wf_contents {
+    int64_t packets, bytes;          /* of the picture */
+    int64_t least_bytes, most_bytes; /* of a packet */
+    int64_t fields;      /* that the packets are shown for: two of a frame, repeated ones too */
+    int64_t lone_fields; /* packets of a single field */
+    int64_t repeated;    /* packets that are shown for more than two */
+    bool types_known;
+    int64_t whole, between, longest_group; /* I and B pictures; from one I to the next */
+    int sounds;                            /* streams */
+    double sound_least_s, sound_most_s;
+    double sound_block_s; /* how exact that is: blocks of coded sound at its ends */
+} wf_contents;
+
 /* What a delivered file says of itself, in its container and its streams; nothing here is
  * looked up in pixels. */
 typedef struct wf_metadata {
     char container[16]; /* libavformat's name: "mov", "mxf", "matroska" */
     char codec[24], profile[48], pixels[24];
-    int width_px, lines; /* as coded */
+    int level;            /* of the codec, as libavcodec numbers it */
+    char sound_codec[24]; /* of the first stream of sound */
+    int width_px, lines;  /* as coded */
     wf_rational rate, pixel_aspect;
     bool scan_known, interlaced, top_first;
     bool coded_fields, coded_top_first; /* the first frame is coded as fields, in this order */
@@ -23,6 +39,7 @@ typedef struct wf_metadata {
     bool timecode_drop;
     int sound_streams, sound_channels, sound_rate, sound_bits;
     double sound_s; /* the shortest of them; 0: not said */
+    wf_contents there;
 
     bool has_fiel, has_pasp, has_colr, has_clap; /* QuickTime's atoms */
     int fiel[2];

@@ -207,7 +207,7 @@ END
 }
 
 # patched FROM TO KIND NAME OFFSET BYTES
-patched() { python3 "$WEFT_SOURCE/tests/program/patch_delivery.py" "$@"; }
+patched() { python3 "$WEFT_SOURCE/tests/verify/patch_delivery.py" "$@"; }
 
 # wrong CHECK FROM KIND NAME OFFSET BYTES [OPTION..]: with bytes written over it fails this check alone.
 wrong()

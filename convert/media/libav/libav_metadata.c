@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/media/metadata.h"
+#include "convert/media/libav/libav_packets.h"
 
 WEFT_API wf_libav_metadata_fn wf_libav_metadata;
 
@@ -33,6 +33,7 @@ static void read_video(const AVStream *s, wf_metadata *c) {
     copy(c->codec, sizeof c->codec, avcodec_get_name(p->codec_id));
     copy(c->profile, sizeof c->profile, avcodec_profile_name(p->codec_id, p->profile));
     copy(c->pixels, sizeof c->pixels, av_get_pix_fmt_name((enum AVPixelFormat)p->format));
+    c->level = p->level;
     c->width_px = p->width;
     c->lines = p->height;
     c->rate = ratio_of(s->avg_frame_rate.num ? s->avg_frame_rate : s->r_frame_rate);
@@ -50,7 +51,8 @@ static void read_video(const AVStream *s, wf_metadata *c) {
 static void read_sound(const AVStream *s, wf_metadata *c) {
     double length_s = seconds_of(s);
     int bits = s->codecpar->bits_per_raw_sample;
-    c->sound_streams++;
+    if (!c->sound_streams++)
+        copy(c->sound_codec, sizeof c->sound_codec, avcodec_get_name(s->codecpar->codec_id));
     c->sound_channels += s->codecpar->ch_layout.nb_channels;
     c->sound_rate = s->codecpar->sample_rate;
     c->sound_bits = bits ? bits : av_get_bits_per_sample(s->codecpar->codec_id);
@@ -62,33 +64,39 @@ static void read_timecode(const AVDictionary *tags, wf_metadata *c) {
     if (tag && !*c->timecode) copy(c->timecode, sizeof c->timecode, tag->value);
 }
 
-/* Decodes the first frame, which states the scan where the container does not. */
-static void read_frame(AVFormatContext *format, int stream, wf_metadata *c) {
-    const AVCodecParameters *p = format->streams[stream]->codecpar;
-    const AVCodec *decoder = avcodec_find_decoder(p->codec_id);
-    AVCodecContext *codec = decoder ? avcodec_alloc_context3(decoder) : NULL;
-    AVPacket *packet = av_packet_alloc();
-    AVFrame *frame = av_frame_alloc();
-    int code = codec && packet && frame ? avcodec_parameters_to_context(codec, p) : -1;
-    if (code >= 0) code = avcodec_open2(codec, decoder, NULL);
-    bool have = false;
-    while (code >= 0 && !have) {
-        code = av_read_frame(format, packet);
-        if (code >= 0 && packet->stream_index == stream) avcodec_send_packet(codec, packet);
-        if (code == AVERROR_EOF) code = avcodec_send_packet(codec, NULL);
-        av_packet_unref(packet);
-        have = code >= 0 && avcodec_receive_frame(codec, frame) >= 0;
-    }
-    c->coded_fields = have && frame->interlaced_frame;
+/* Codecs whose pictures say when they are progressive; of others no word is no answer. */
+static bool says_progressive(enum AVCodecID id) {
+    static const enum AVCodecID ids[] = {AV_CODEC_ID_MPEG2VIDEO, AV_CODEC_ID_H264,
+                                         AV_CODEC_ID_HEVC,       AV_CODEC_ID_PRORES,
+                                         AV_CODEC_ID_DNXHD,      AV_CODEC_ID_VC1};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == id) return true;
+    return false;
+}
+
+/* The first picture states the scan where the container does not. */
+static void read_frame(const AVFrame *frame, enum AVCodecID id, wf_metadata *c) {
+    c->coded_fields = frame->interlaced_frame;
     c->coded_top_first = c->coded_fields && frame->top_field_first;
-    if (have && !c->scan_known) {
-        c->scan_known = true;
-        c->interlaced = frame->interlaced_frame;
-        c->top_first = c->interlaced && frame->top_field_first;
-    }
+    bool fields_after_all = c->scan_known && !c->interlaced && frame->interlaced_frame &&
+                            id == AV_CODEC_ID_H264; /* its parser takes MBAFF for progressive */
+    if ((c->scan_known && !fields_after_all) ||
+        !(frame->interlaced_frame || says_progressive(id)))
+        return;
+    c->scan_known = true;
+    c->interlaced = frame->interlaced_frame;
+    c->top_first = c->interlaced && frame->top_field_first;
+}
+
+/* Counts what is there, and looks at the first picture. */
+static weft_status read_contents(AVFormatContext *format, int video, wf_metadata *c,
+                                 weft_error *err) {
+    AVFrame *frame = av_frame_alloc();
+    int code = frame ? wf_libav_packets(format, video, c, frame) : AVERROR(ENOMEM);
+    if (code >= 0 && frame->width)
+        read_frame(frame, format->streams[video]->codecpar->codec_id, c);
     av_frame_free(&frame);
-    av_packet_free(&packet);
-    avcodec_free_context(&codec);
+    return code < 0 ? wf_fail(err, WEFT_NO_MEMORY, "no memory to count packets") : WEFT_OK;
 }
 
 static weft_status read_format(AVFormatContext *format, const char *path, wf_metadata *c,
@@ -98,14 +106,15 @@ static weft_status read_format(AVFormatContext *format, const char *path, wf_met
     size_t first = strcspn(format->iformat->name, ",");
     snprintf(c->container, sizeof c->container, "%.*s", (int)first, format->iformat->name);
     read_video(format->streams[video], c);
+    if (format->duration_estimation_method != AVFMT_DURATION_FROM_STREAM) c->video_s = 0;
     read_timecode(format->metadata, c);
     for (unsigned i = 0; i < format->nb_streams; i++) {
         const AVStream *s = format->streams[i];
         read_timecode(s->metadata, c);
         if (s->codecpar->codec_type == AVMEDIA_TYPE_AUDIO) read_sound(s, c);
     }
-    read_frame(format, video, c);
-    return WEFT_OK;
+    if (format->duration_estimation_method != AVFMT_DURATION_FROM_STREAM) c->sound_s = 0;
+    return read_contents(format, video, c, err);
 }
 
 weft_status wf_libav_metadata(const char *path, wf_metadata *metadata, weft_error *err) {

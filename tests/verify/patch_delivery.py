@@ -2,7 +2,8 @@
 """patch_delivery.py FROM TO KIND NAME OFFSET BYTES: a copy of a file with hexadecimal BYTES written over.
 KIND atom: at OFFSET of the body of the last QuickTime atom of this name, or with a + before it the first. KIND item: at OFFSET of the value of MXF's item of this tag (hexadecimal), in every
 set of picture descriptors, and for tags 15.. in every timecode component. KIND label: of the operational
-pattern in every partition. KIND picture: of every picture coding extension of MPEG-2, whose byte 3 begins with
+pattern in every partition. KIND status: of the key of every partition pack, its byte 14. KIND end: at
+OFFSET from the end of the file, which is below 0. KIND picture: of every picture coding extension of MPEG-2, whose byte 3 begins with
 the order of the fields."""
 import sys
 
@@ -47,6 +48,18 @@ def labels(data, _, offset):
             yield value + 64 + offset
 
 
+def statuses(data, _, offset):
+    at = data.find(PARTITION)
+    while at >= 0:
+        if 2 <= data[at + 13] <= 4:
+            yield at + 14 + offset
+        at = data.find(PARTITION, at + 1)
+
+
+def ends(data, _, offset):
+    yield len(data) + offset
+
+
 def pictures(data, _, offset):
     at = data.find(b"\0\0\1\xb5\x8f")
     while at >= 0:
@@ -54,9 +67,10 @@ def pictures(data, _, offset):
         at = data.find(b"\0\0\1\xb5\x8f", at + 4)
 
 
+KINDS = {"atom": atoms, "item": items, "label": labels, "status": statuses, "end": ends, "picture": pictures}
 source, target, kind, name, offset, new = sys.argv[1:]
 data, new = bytearray(open(source, "rb").read()), bytes.fromhex(new)
-places = list({"atom": atoms, "item": items, "label": labels, "picture": pictures}[kind](bytes(data), name, int(offset)))
+places = list(KINDS[kind](bytes(data), name, int(offset)))
 if not places:
     sys.exit(f"{source} has no {name}")
 for at in places:

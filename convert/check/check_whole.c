@@ -1,0 +1,56 @@
+/* Checks: whether all of the file is there, as its structure and its lengths tell. */
+#include "convert/check/check_whole.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+wf_verdict wf_check_whole(const wf_subject *s, wf_finding *f) {
+    const wf_structure *structure = &s->structure;
+    if (*structure->missing) return wf_say(f, false, structure->missing, "all of the file");
+    if (!structure->ends) return wf_open_question(f, "it does not say where it ends");
+    return wf_say(f, true, "to its last byte", "");
+}
+
+/* Metadata is final in a closed partition, and known in a complete one. */
+wf_verdict wf_check_header(const wf_subject *s, wf_finding *f) {
+    static const char *const words[] = {"not said", "open and incomplete",
+                                        "closed and incomplete", "open and complete",
+                                        "closed and complete"};
+    wf_mxf_status header = s->structure.header, footer = s->structure.footer;
+    char is[96];
+    snprintf(is, sizeof is, "%s%s%s", words[header], footer ? ", repeated in the footer: " : "",
+             footer ? words[footer] : "");
+    return wf_say(f, header == WF_MXF_CLOSED_COMPLETE || footer == WF_MXF_CLOSED_COMPLETE, is,
+                  words[WF_MXF_CLOSED_COMPLETE]);
+}
+
+double wf_picture_s(const wf_subject *s) {
+    const wf_contents *there = &s->metadata.there;
+    double frames = there->repeated ? (double)there->fields / 2 : (double)s->figures.frames;
+    return frames / wf_ratio_value(s->figures.info.raster.frame_rate);
+}
+
+/* How far a stated length is from what is there, in seconds; what is allowed comes off. */
+static double astray(const wf_subject *s, const wf_stated *stated) {
+    double there_s = wf_picture_s(s), sound_s = s->metadata.there.sound_most_s;
+    double block_s = s->metadata.there.sound_block_s;
+    double far_s = fabs(stated->seconds - there_s);
+    if (stated->of_all && sound_s > there_s)
+        far_s = fmax(there_s - stated->seconds, stated->seconds - sound_s) - block_s;
+    return far_s - stated->tick_s;
+}
+
+wf_verdict wf_check_durations(const wf_subject *s, wf_finding *f) {
+    char is[160], should[64];
+    const wf_structure *t = &s->structure;
+    double half_s = 0.5 / wf_ratio_value(s->figures.info.raster.frame_rate);
+    const wf_stated *worst = &t->stated[0];
+    if (!t->stated_count) return wf_open_question(f, "none is stated");
+    for (int i = 1; i < t->stated_count; i++)
+        if (astray(s, &t->stated[i]) > astray(s, worst)) worst = &t->stated[i];
+    snprintf(is, sizeof is, "%.3f s (%s), and %" PRId64 " frames are there", worst->seconds,
+             worst->of, s->figures.frames);
+    snprintf(should, sizeof should, "%.3f s", wf_picture_s(s));
+    return wf_say(f, astray(s, worst) < half_s, is, should);
+}

@@ -1,0 +1,12 @@
+#ifndef WF_CONVERT_CHECK_CHECK_WHOLE_H
+#define WF_CONVERT_CHECK_CHECK_WHOLE_H
+
+#include "convert/check/subject.h"
+
+/* Checks: whether all of the file is there. wf_check_fn (subject.h) says what they do. */
+wf_check_fn wf_check_whole, wf_check_header, wf_check_durations;
+
+/* How long the picture is that is there, in seconds: repeated fields are shown, too. */
+double wf_picture_s(const wf_subject *subject);
+
+#endif
