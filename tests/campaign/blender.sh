@@ -9,15 +9,15 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 cd "$out"
 cat >shot.py <<'END'
-import bpy
+import bpy, os
 scene, cube = bpy.context.scene, bpy.data.objects["Cube"]
 scene.frame_start, scene.frame_end = 1, 3
-scene.render.engine, scene.cycles.samples = "CYCLES", 1
+scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
 scene.render.fps, scene.render.fps_base = 30, 1.001
 for frame, x in (1, -2), (3, 2):
     cube.location.x = x
     cube.keyframe_insert("location", frame=frame)
-bpy.ops.wm.save_as_mainfile(filepath="shot.blend")
+bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("shot.blend"))
 END
 blender -b -P shot.py >blender.log 2>&1 && [ -s shot.blend ] || { cat blender.log; exit 1; }
 blender -b shot.blend -P "$source_dir/examples/blender_subframes.py" -- shot 16 >blender.log 2>&1 ||

@@ -20,13 +20,14 @@ set -eux
 cd /weft
 examples/quickstart.sh
 cmake --install build
-cd out/subframes
-for file in subframe.*.exr; do mv "$file" "${file/subframe/shot}"; done
-sed -n '/^```c$/,/^```$/p' /weft/README.md | sed '/^```/d' >shot.c
-eval "$(grep '^ *cc shot.c ' /weft/README.md)"
+printed() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" README.md | sed '/^```/d'; }
+printed c >shot.c
+eval "$(grep '^ *cc shot.c ' README.md)"
 ./a.out
 apt-get -qq install -y --no-install-recommends python3-numpy
-python3 -c 'import weft; print(weft.Job("shot.####.exr", output="p.y4m", subframe_rate=240).run()["frames"])'
+printed python >shot.py
+python3 shot.py
+weft info out/shot_625i.y4m out/shot.y4m
 weft --version
 END
 chroot "$root" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive \
