@@ -80,10 +80,9 @@ static uint64_t group_of(const char *name, size_t start, size_t end) {
     return XXH3_64bits_withSeed(name + end, strlen(name + end), prefix);
 }
 
-bool wf_name_number_of(const char *name, bool subframes, wf_numbered *out) {
+bool wf_name_number_of(const char *name, int way, wf_numbered *out) {
     wf_name_number found;
-    if (strlen(name) >= WF_NAME_SIZE || !wf_name_find_number(name, subframes, &found))
-        return false;
+    if (strlen(name) >= WF_NAME_SIZE || !wf_name_find_number(name, way, &found)) return false;
     *out = (wf_numbered){.number = found.value,
                          .group = group_of(name, found.start, found.end),
                          .name = name,
@@ -120,13 +119,12 @@ weft_status wf_names_match(const wf_names *names, const wf_pattern *pattern,
     return WEFT_OK;
 }
 
-weft_status wf_names_group(const wf_names *names, bool subframes, wf_numbered_list *out,
+weft_status wf_names_group(const wf_names *names, int way, wf_numbered_list *out,
                            weft_error *err) {
     weft_status status = allocate(names, out, err);
     if (status) return status;
     for (const char *name = NULL; (name = wf_names_next(names, name));)
-        if (wf_name_is_picture(name) &&
-            wf_name_number_of(name, subframes, &out->entry[out->count]))
+        if (wf_name_is_picture(name) && wf_name_number_of(name, way, &out->entry[out->count]))
             out->count++;
     qsort(out->entry, out->count, sizeof *out->entry, order);
     return WEFT_OK;

@@ -39,7 +39,7 @@ weft_status wf_names_match(const wf_names *names, const wf_pattern *pattern,
 
 /* The pictures (by their endings) that have a number, by group and number; dot files are none.
  * How a name is read is wf_name_find_number's. */
-weft_status wf_names_group(const wf_names *names, bool subframes, wf_numbered_list *out,
+weft_status wf_names_group(const wf_names *names, int way, wf_numbered_list *out,
                            weft_error *err);
 bool wf_name_is_picture(const char *name);
 
@@ -47,7 +47,7 @@ bool wf_name_is_picture(const char *name);
 bool wf_name_ends_in(const char *name, const char *ending);
 
 /* Reads the number of one name; false if it has none. */
-bool wf_name_number_of(const char *name, bool subframes, wf_numbered *out);
+bool wf_name_number_of(const char *name, int way, wf_numbered *out);
 
 /* The end of the group that starts at entry `start`. */
 size_t wf_group_end(const wf_numbered_list *list, size_t start);

@@ -7,8 +7,7 @@
 
 __extension__ typedef __int128 wide;
 
-#define MOST_PARTS    1000
-#define MOST_DECIMALS 9
+#define MOST_PARTS 1000
 
 /* ---- Steps ---- */
 
@@ -46,7 +45,7 @@ static int decimals_of(const wf_numbered *e) {
     size_t length = (size_t)(e->end - e->start);
     const char *dot = length ? memchr(number, '.', length) : NULL;
     size_t decimals = dot ? length - (size_t)(dot - number) - 1 : 0;
-    return decimals > MOST_DECIMALS ? MOST_DECIMALS : (int)decimals;
+    return decimals > WF_DECIMALS_KEPT ? WF_DECIMALS_KEPT : (int)decimals;
 }
 
 /* 10^decimals of the number that has most of them; 1 where all numbers are whole. */

@@ -6,9 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_FIELDS   8
-#define MOST_DIGITS   18
-#define MOST_DECIMALS 9
+#define MOST_FIELDS 8
+#define MOST_DIGITS 18
 
 const char *wf_base_name(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -25,14 +24,14 @@ static size_t count_digits(const char *text) {
     return strspn(text, "0123456789");
 }
 
-/* The sign, digits and, where decimals is not 0, '.' and decimals at text, exactly. False where
- * that does not fit. */
+/* The sign, digits and, where decimals is not 0, '.' and decimals at text, exactly but for what
+ * follows WF_DECIMALS_KEPT. False where that does not fit. */
 static bool number_value(const char *text, size_t digits, size_t decimals, wf_rational *out) {
     bool negative = *text == '-';
     int64_t num = 0, den = 1;
     text += negative;
     while (decimals && text[digits + decimals] == '0') decimals--;
-    if (decimals > MOST_DECIMALS) return false;
+    if (decimals > WF_DECIMALS_KEPT) decimals = WF_DECIMALS_KEPT;
     for (size_t i = 0; i < digits + decimals; i++) {
         char digit = text[i < digits ? i : i + 1];
         if (__builtin_mul_overflow(num, 10, &num) ||
@@ -193,12 +192,17 @@ static bool is_separator(char c) {
     return c == '.' || c == '_' || c == '-' || c == ' ';
 }
 
-bool wf_name_find_number(const char *name, bool subframes, wf_name_number *out) {
-    size_t end = stem_length(name), decimals = 0;
+/* The end of the last number before `end`, less `skipped` of them; 0: there is none. */
+static size_t number_end(const char *name, size_t end, int skipped) {
     while (end && !is_digit(name[end - 1])) end--;
+    return skipped ? number_end(name, digits_start(name, end), skipped - 1) : end;
+}
+
+bool wf_name_find_number(const char *name, int way, wf_name_number *out) {
+    size_t end = number_end(name, stem_length(name), way / 2), decimals = 0;
     size_t start = digits_start(name, end), digits = end - start;
     if (!digits) return false;
-    if (subframes && start > 1 && name[start - 1] == '.' && is_digit(name[start - 2])) {
+    if (way % 2 && start > 1 && name[start - 1] == '.' && is_digit(name[start - 2])) {
         size_t whole = digits_start(name, start - 1);
         if (!whole || is_separator(name[whole - 1])) {
             decimals = digits;

@@ -9,6 +9,8 @@
 
 #define WF_NAME_SIZE 256 /* of a file's name without its directory, with its end */
 
+#define WF_DECIMALS_KEPT 12 /* of a number in a name; what follows them is cut off */
+
 /* A path whose last name holds a frame field: "shot.####.exr", "shot.@@@@.exr",
  * "shot.%04d.exr", and with sub-frames "shot.#.#.exr". A lone '#' stands for four digits, of
  * several '#' and of '@' each for one; %d and %0Nd are printf's and %% is '%'. '@' is itself
@@ -40,12 +42,15 @@ bool wf_pattern_match(const wf_pattern *pattern, const char *name, wf_rational *
 
 /* Where a name that came without a pattern has its number: the last digits before its ending
  * ("shot_v2.0001.exr", "0001_beauty.exr"), a '-' being a sign after '.' or '_' or at the start.
- * With subframes "shot.1001.25.exr" is number 1001.25 and not number 25 of "shot.1001.". */
+ * There are several ways to read a name: odd ones take two numbers with a '.' between for one
+ * with sub-frames ("shot.1001.25.exr" is number 1001.25 and not number 25 of "shot.1001."), and
+ * way / 2 numbers at the end are left alone ("shot.0001_v2.exr" has number 1 by way 2). */
 typedef struct wf_name_number {
     size_t start, end;
     wf_rational value;
 } wf_name_number;
-bool wf_name_find_number(const char *name, bool subframes, wf_name_number *out);
+#define WF_NUMBER_WAYS 6
+bool wf_name_find_number(const char *name, int way, wf_name_number *out);
 
 /* The part of a path after its last '/'. */
 const char *wf_base_name(const char *path);

@@ -38,7 +38,7 @@ static void tell_what_is_there(const wf_names *names, char *text, size_t size) {
     static const char before[] = "; the directory holds ";
     wf_numbered_list groups;
     *text = '\0';
-    if (wf_names_group(names, false, &groups, NULL)) return;
+    if (wf_names_group(names, 0, &groups, NULL)) return;
     memcpy(text, before, sizeof before);
     if (groups.count)
         wf_groups_text(&groups, text + sizeof before - 1, size - sizeof before);
@@ -100,7 +100,7 @@ static weft_status expand_parts(const char *path, const timed_parts *parts, cons
 static weft_status expand_picture(const char *path, const char *frames, wf_sequence *out,
                                   weft_error *err) {
     wf_numbered entry;
-    if (!wf_name_number_of(wf_base_name(path), false, &entry)) entry.number = wf_ratio(0, 1);
+    if (!wf_name_number_of(wf_base_name(path), 0, &entry)) entry.number = wf_ratio(0, 1);
     entry.name = path;
     entry.part = -1;
     const wf_numbered_list list = {&entry, 1};
@@ -194,17 +194,16 @@ static const char *only_picture(const wf_names *names) {
     return found;
 }
 
-/* One way to read a directory's names. */
+/* A directory's names, read in one way. */
 typedef struct reading {
     wf_numbered_list list;
     size_t first, end; /* of the only group of several files; 0, 0: there is none */
     double density;    /* of the group */
 } reading;
 
-static weft_status read_names(const wf_names *names, bool subframes, reading *out,
-                              weft_error *err) {
+static weft_status read_names(const wf_names *names, int way, reading *out, weft_error *err) {
     *out = (reading){0};
-    weft_status status = wf_names_group(names, subframes, &out->list, err);
+    weft_status status = wf_names_group(names, way, &out->list, err);
     if (status) return status;
     if (!only_group(&out->list, &out->first, &out->end))
         out->first = out->end = 0;
@@ -215,20 +214,22 @@ static weft_status read_names(const wf_names *names, bool subframes, reading *ou
 
 /* In "shot.1001.25.exr" 25 is a sub-frame of 1001 where that leaves fewer pictures out, or
  * takes as many and makes one sequence with fewer gaps; elsewhere it is picture 25 of scene
- * 1001. */
-static bool reads_better(const reading *subframes, const reading *whole) {
-    size_t taken = subframes->end - subframes->first, others = whole->end - whole->first;
-    if (subframes->density < 0.5) return false;
-    return taken != others ? taken > others : subframes->density > whole->density;
+ * 1001. So "shot.0025_v2.exr" is picture 25, unless there are more that differ in the 2. */
+static bool reads_better(const reading *other, const reading *best) {
+    size_t taken = other->end - other->first, before = best->end - best->first;
+    if (other->density < 0.5) return false;
+    return taken != before ? taken > before : other->density > best->density;
 }
 
 static weft_status read_directory(const wf_names *names, reading *out, weft_error *err) {
-    reading subframes = {0};
-    weft_status status = read_names(names, false, out, err);
-    if (!status) status = read_names(names, true, &subframes, err);
-    bool better = !status && reads_better(&subframes, out);
-    free(better ? out->list.entry : subframes.list.entry);
-    if (better) *out = subframes;
+    weft_status status = read_names(names, 0, out, err);
+    for (int way = 1; !status && way < WF_NUMBER_WAYS; way++) {
+        reading other = {0};
+        status = read_names(names, way, &other, err);
+        bool better = !status && reads_better(&other, out);
+        free(better ? out->list.entry : other.list.entry);
+        if (better) *out = other;
+    }
     return status;
 }
 
@@ -329,15 +330,13 @@ static int by_number(const void *a, const void *b) {
 
 /* Numbers a list whose names differ in their numbers alone, and puts it in their order. Returns
  * wf_number_density of it, or -1 if it is no such list. */
-static double number_list(char *const *inputs, size_t count, bool subframes,
-                          wf_numbered *entry) {
+static double number_list(char *const *inputs, size_t count, int way, wf_numbered *entry) {
     size_t directory = (size_t)(wf_base_name(inputs[0]) - inputs[0]);
     for (size_t i = 0; i < count; i++) {
         const char *name = wf_base_name(inputs[i]);
         bool same = (size_t)(name - inputs[i]) == directory &&
                     !memcmp(inputs[i], inputs[0], directory) &&
-                    wf_name_number_of(name, subframes, &entry[i]) &&
-                    entry[i].group == entry[0].group;
+                    wf_name_number_of(name, way, &entry[i]) && entry[i].group == entry[0].group;
         if (!same) return -1;
         entry[i].name = inputs[i];
     }
@@ -356,12 +355,16 @@ static weft_status expand_list(char *const *inputs, size_t count, const char *fr
     if (status) return status;
     wf_numbered_list list = {malloc(count * sizeof *list.entry), count};
     if (!list.entry) return wf_fail(err, WEFT_NO_MEMORY, "out of memory for %zu inputs", count);
-    double whole = number_list(inputs, count, false, list.entry);
-    double parts = number_list(inputs, count, true, list.entry);
-    if (whole < 0 && parts < 0)
+    double best = -1;
+    int best_way = 0;
+    for (int way = 0; way < WF_NUMBER_WAYS; way++) {
+        double density = number_list(inputs, count, way, list.entry);
+        if (density > best) best = density, best_way = way;
+    }
+    if (best < 0)
         count_list(inputs, count, list.entry);
-    else if (parts <= whole)
-        number_list(inputs, count, false, list.entry);
+    else
+        number_list(inputs, count, best_way, list.entry);
     status = select_from(&list, "", inputs[0], frames, out, err);
     free(list.entry);
     return status;

@@ -68,10 +68,10 @@ static void try_pattern(const char *text, const char *frames, const wf_names *na
     free(list.entry);
 }
 
-static void try_groups(const char *frames, const wf_names *names, bool subframes) {
+static void try_groups(const char *frames, const wf_names *names, int way) {
     wf_numbered_list list;
     char text[300];
-    if (wf_names_group(names, subframes, &list, NULL)) return;
+    if (wf_names_group(names, way, &list, NULL)) return;
     wf_groups_text(&list, text, sizeof text);
     require(strlen(text) < sizeof text);
     for (size_t i = 0, end; i < list.count; i = end) {
@@ -96,8 +96,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *own = rest && *rest ? NULL : strdup(usual);
     add_names(own ? own : rest, &names);
     try_pattern(pattern, frames, &names);
-    try_groups(frames, &names, false);
-    try_groups(frames, &names, true);
+    for (int way = 0; way < WF_NUMBER_WAYS; way++) try_groups(frames, &names, way);
     wf_names_free(&names);
     free(own);
     free(text);

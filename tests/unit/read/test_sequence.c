@@ -196,7 +196,8 @@ static void names_that_patterns_match(void **state) {
         {"s.#.exr", "s.9223372036854775807.exr", {INT64_MAX, 1}},
         {"s.#.exr", "s.9223372036854775808.exr", {0, 0}},
         {"s.#.#.exr", "s.1.000000001.exr", {1000000001, 1000000000}},
-        {"s.#.#.exr", "s.1.0000000001.exr", {0, 0}},
+        {"s.#.#.exr", "s.1.000000000001.exr", {1000000000001, 1000000000000}},
+        {"s.#.#.exr", "s.1.0000000000019.exr", {1000000000001, 1000000000000}},
         {"s.#.#.exr", "s.1.5000000000.exr", {3, 2}},
         {"s.#.#.exr", "s.9999999999999.999999999.exr", {0, 0}},
         {"s.#.#.exr", "s.9223372036.854775807.exr", {INT64_MAX, 1000000000}},
@@ -533,6 +534,41 @@ static void lists_in_the_order_of_a_shell(void **state) {
     refused_all(twice, 3, NULL, WEFT_FAILED, "8 is there twice");
 }
 
+/* The number that names differ in counts, wherever it is. */
+static void numbers_before_others(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("v", 0777), 0);
+    touch_range("v/sc01_%02d_v003.exr", 8, 11);
+    touch("v/sc01_11_v004.exr");
+    check(expand("v", NULL), "8:v/sc01_08_v003.exr 9:v/sc01_09_v003.exr "
+                             "10:v/sc01_10_v003.exr 11:v/sc01_11_v003.exr /1");
+    touch_range("s_%d_v3.exr", 9, 11);
+    char *shell[] = {"s_10_v3.exr", "s_11_v3.exr", "s_9_v3.exr"};
+    check(expand_all(shell, 3, NULL), "9:s_9_v3.exr 10:s_10_v3.exr 11:s_11_v3.exr /1");
+    touch("s_9.5_v3.exr");
+    char *half[] = {"s_10_v3.exr", "s_9.5_v3.exr", "s_9_v3.exr"};
+    check(expand_all(half, 3, NULL), "9:s_9_v3.exr 9.5:s_9.5_v3.exr 10:s_10_v3.exr /1");
+}
+
+/* Thirds as programs print doubles. */
+static void thirds_of_many_decimals(void **state) {
+    (void)state;
+    for (int decimals = 8; decimals <= 16; decimals++) {
+        char directory[16], name[64];
+        snprintf(directory, sizeof directory, "d%d", decimals);
+        assert_int_equal(mkdir(directory, 0777), 0);
+        for (int i = 0; i < 9; i++) {
+            snprintf(name, sizeof name, "%s/f.%.*f.exr", directory, decimals, 1001 + i / 3.0);
+            touch(name);
+        }
+        wf_sequence s = expand(directory, NULL);
+        assert_int_equal(s.count, 9);
+        assert_int_equal(s.missing, 0);
+        assert_true(wf_ratio_equal(s.number_step, wf_ratio(1, 3)));
+        wf_sequence_free(&s);
+    }
+}
+
 /* ---- What numbers mean ---- */
 
 static void check_told(wf_sequence sequence, const char *wanted, const char *notice) {
@@ -805,6 +841,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_directory_that_cannot_be_read, enter, leave),
         cmocka_unit_test_setup_teardown(lists_of_files, enter, leave),
         cmocka_unit_test_setup_teardown(lists_in_the_order_of_a_shell, enter, leave),
+        cmocka_unit_test_setup_teardown(numbers_before_others, enter, leave),
+        cmocka_unit_test_setup_teardown(thirds_of_many_decimals, enter, leave),
         cmocka_unit_test_setup_teardown(steps_of_numbers, enter, leave),
         cmocka_unit_test_setup_teardown(a_directory_of_half_frames, enter, leave),
         cmocka_unit_test_setup_teardown(fractions_of_any_kind, enter, leave),
