@@ -45,16 +45,43 @@ size_t wf_beauty_of(const char *name, size_t length) {
     return b;
 }
 
-/* Names of what is data and no picture, though some renderers store it as R G B or Y. */
-static bool is_data_name(const char *name, size_t length) {
-    static const char *const words[] = {
-        "n",     "normal", "normals",  "p",       "position", "z",      "zdepth",
-        "depth", "uv",     "st",       "vector",  "velocity", "motion", "motionvector",
-        "id",    "ids",    "objectid", "indexob", "indexma",  "speed",  "materialid"};
-    const char *word = last_name(name, &length);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (same_word(word, length, words[i])) return true;
+static bool is_one_of(const char *name, size_t length, const char *const *words, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (same_word(name, length, words[i])) return true;
     return false;
+}
+
+static bool is_letter(char c) {
+    return ((c | 32) >= 'a') & ((c | 32) <= 'z');
+}
+
+/* Length of the word at name: letters, up to a capital that follows a small one. */
+static size_t word_length(const char *name, size_t length) {
+    size_t end = 0;
+    while (end < length && is_letter(name[end]) &&
+           !(end && (name[end - 1] & 32) && !(name[end] & 32)))
+        end++;
+    return end;
+}
+
+/* Names of what is data and no picture, though some renderers store it as R G B or Y: some
+ * alone, others of layers as one of several words too ("world_normal", "ObjectID"). */
+static bool is_data_name(const char *name, size_t length, bool words) {
+    static const char *const alone[] = {
+        "n",      "p",    "z",    "st",   "indexob", "indexma", "speed",     "pworld",
+        "nworld", "pref", "nref", "pcam", "ncam",    "matid",   "objectids", "puzzlematte"};
+    static const char *const within[] = {
+        "normal",   "normals",    "position", "positions", "zdepth",       "depth",
+        "uv",       "uvs",        "vector",   "vectors",   "velocity",     "motion",
+        "objectid", "materialid", "id",       "ids",       "motionvector", "motionvectors",
+    };
+    const char *word = last_name(name, &length);
+    if (is_one_of(word, length, alone, sizeof alone / sizeof *alone)) return true;
+    for (size_t at = 0, step; words && at < length; at += step ? step : 1) {
+        step = word_length(word + at, length - at);
+        if (is_one_of(word + at, step, within, sizeof within / sizeof *within)) return true;
+    }
+    return is_one_of(word, length, within, sizeof within / sizeof *within);
 }
 
 /* CryptoObject00, crypto_material .. */
@@ -153,7 +180,8 @@ bool wf_layer_holds_ids(const wf_layer *l) {
 
 bool wf_layer_is_data(const wf_layer *l) {
     const char *name = l->length ? l->name : l->part->name;
-    return wf_layer_holds_ids(l) || is_data_name(name, l->length ? l->length : strlen(name));
+    size_t length = l->length ? l->length : strlen(name);
+    return wf_layer_holds_ids(l) || is_data_name(name, length, l->length > 0);
 }
 
 /* ---- All layers ---- */

@@ -180,14 +180,18 @@ static bool choose_asked(const choice *c) {
     return refuse(c, "no layer '%.80s'", c->wish->layer);
 }
 
-/* The part that the wish names, by its name or its number; -1: there is none. */
+/* The part that the wish names, by its name, its number, or its name in any case if just one
+ * has it; -1: there is none. */
 static int part_called(const choice *c, const char *wanted) {
     char *end;
+    int found = -1, count = 0;
     long number = strtol(wanted, &end, 10);
-    for (int p = 0; p < c->part_count; p++)
+    for (int p = 0; p < c->part_count; p++) {
         if (*wanted && !strcmp(c->parts[p].name, wanted)) return p;
+        if (*wanted && !strcasecmp(c->parts[p].name, wanted)) found = p, count++;
+    }
     bool is_number = *wanted && !*end && number >= 0 && number < c->part_count;
-    return is_number ? (int)number : -1;
+    return is_number ? (int)number : count == 1 ? found : -1;
 }
 
 static bool any_flat(const choice *c) {

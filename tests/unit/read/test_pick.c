@@ -108,6 +108,33 @@ static void without_a_prefix(void **state) {
     EXPECT_ALL(rows);
 }
 
+/* What holds numbers for R G B is only taken if it is asked for. */
+static void data(void **state) {
+    (void)state;
+    static const char *const names[] = {"N",        "world_normal",  "WorldPosition",
+                                        "depthRaw", "ObjectID",      "Pworld",
+                                        "V.Vector", "VRayNormals",   "st",
+                                        "uv_pass",  "motionVectors", "mat.ID"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        char alone[128], beside[200], right[128];
+        snprintf(alone, sizeof alone, ":%s.B %s.G %s.R", names[n], names[n], names[n]);
+        snprintf(beside, sizeof beside, "%s glow.B glow.G glow.R", alone);
+        snprintf(right, sizeof right, "0 %s %s.R %s.G %s.B, option default", names[n], names[n],
+                 names[n], names[n]);
+        const row rows[] = {{alone, NULL, NULL, "!there is no picture in it"},
+                            {beside, NULL, NULL, "0 glow glow.R glow.G glow.B, file default"},
+                            {alone, names[n], NULL, right}};
+        EXPECT_ALL(rows);
+    }
+    static const row pictures[] = {
+        {":sss.B sss.G sss.R", NULL, NULL, "0 sss sss.R sss.G sss.B, file default"},
+        {":Idle.B Idle.G Idle.R", NULL, NULL, "0 Idle Idle.R Idle.G Idle.B, file default"},
+        {":paid.B paid.G paid.R", NULL, NULL, "0 paid paid.R paid.G paid.B, file default"},
+        {"motion graphics:B G R", NULL, NULL, "0 - R G B, default default"},
+    };
+    EXPECT_ALL(pictures);
+}
+
 static void by_name(void **state) {
     (void)state;
     static const row rows[] = {
@@ -240,9 +267,13 @@ static void long_lists_are_counted(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_prefix), cmocka_unit_test(by_name),
-        cmocka_unit_test(gray_and_chroma),  cmocka_unit_test(what_is_asked_for),
-        cmocka_unit_test(another_beauty),   cmocka_unit_test(long_lists_are_counted),
+        cmocka_unit_test(without_a_prefix),
+        cmocka_unit_test(by_name),
+        cmocka_unit_test(data),
+        cmocka_unit_test(gray_and_chroma),
+        cmocka_unit_test(what_is_asked_for),
+        cmocka_unit_test(another_beauty),
+        cmocka_unit_test(long_lists_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
