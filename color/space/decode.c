@@ -18,6 +18,10 @@ static wf_curve cinema(void) {
     return wf_curve_gamma(2.6, pow(48 / 52.37, 1 / 2.6));
 }
 
+bool wf_decoding_changes(const wf_decoding *d) {
+    return d->encoded || d->scale != 1 || d->offset != 0;
+}
+
 bool wf_decoding_of_code_point(int code_point, wf_decoding *out) {
     static const wf_curve *const curves[] = {
         [1] = &wf_curve_bt1886,  [6] = &wf_curve_bt1886, [11] = &wf_curve_bt1886,
@@ -66,12 +70,11 @@ static void decode(const void *self, float *r, float *g, float *b, size_t width_
     const decoder *d = self;
     const wf_decoding *how = &d->decoding;
     float *plane[3] = {r, g, b};
-    if (!how->encoded) return;
     for (int c = 0; c < 3; c++) {
         if (how->scale != 1 || how->offset != 0)
             for (size_t i = 0; i < width_px; i++)
                 plane[c][i] = how->scale * plane[c][i] + how->offset;
-        d->ops->decode[how->curve.kind](&how->curve, plane[c], width_px);
+        if (how->encoded) d->ops->decode[how->curve.kind](&how->curve, plane[c], width_px);
     }
 }
 

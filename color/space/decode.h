@@ -13,7 +13,7 @@
  * the curve. */
 typedef struct wf_decoding {
     wf_curve curve;
-    bool encoded; /* false: samples are light, and nothing else of this counts */
+    bool encoded; /* false: the signal is light, and the curve does not count */
     float scale, offset;
 } wf_decoding;
 
@@ -30,7 +30,8 @@ bool wf_decoding_of_code_point(int code_point, wf_decoding *out);
 const char *wf_decoding_name(const wf_decoding *decoding, char text[24]);
 
 /* Decodes three planes in place, as a transform whose self is released by its free. False: no
- * memory. A decoding that is not encoded gives a transform that does nothing. */
+ * memory. A decoding that changes nothing gives a transform that does nothing. */
+bool wf_decoding_changes(const wf_decoding *decoding);
 bool wf_decoding_transform(const wf_decoding *decoding, wf_transform *out);
 
 #endif

@@ -1,11 +1,30 @@
-/* Tags of colors in files of pictures: PNG, DPX and Radiance's HDR. */
+/* Tags of colors in files of pictures: PNG, WebP, JPEG, TIFF, DPX and Radiance's HDR. */
 #include "convert/media/color_tags.h"
 
+#include <libdeflate.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/media/tiff_tags.h"
+
+/* ---- ICC profiles ---- */
+
+#define PROFILE_MOST (1 << 20) /* bytes of a profile that are looked at */
+
+/* Whether a profile calls itself sRGB, in letters of one byte or of two. */
+static bool is_srgb(const uint8_t *data, size_t bytes) {
+    static const char narrow[] = {'s', 'R', 'G', 'B'}, wide[] = {'s', 0, 'R', 0, 'G', 0, 'B'};
+    return memmem(data, bytes, narrow, sizeof narrow) || memmem(data, bytes, wide, sizeof wide);
+}
+
+static void take_profile(const char *name, const uint8_t *data, size_t bytes,
+                         wf_color_said *said) {
+    if (strstr(name, "sRGB") || is_srgb(data, bytes)) return;
+    snprintf(said->profile, sizeof said->profile, "%s", *name ? name : "ICC");
+}
 
 /* ---- PNG ---- */
 
@@ -37,6 +56,30 @@ static void png_chromaticities(const uint8_t *data, wf_color_said *said) {
         said->chromaticities[(i + 6) % 8] = (double)wf_big_endian(data + 4 * i, 4) / 100000;
 }
 
+/* iCCP: a name of at most 79 bytes, its end, the method, and zlib's data. */
+static void png_profile(const uint8_t *data, size_t bytes, wf_color_said *said) {
+    char name[80] = "";
+    size_t length = strnlen((const char *)data, bytes < 79 ? bytes : 79), size = 0;
+    uint8_t *profile = malloc(PROFILE_MOST);
+    struct libdeflate_decompressor *inflate = libdeflate_alloc_decompressor();
+    memcpy(name, data, length);
+    if (profile && inflate && bytes > length + 2 &&
+        libdeflate_zlib_decompress(inflate, data + length + 2, bytes - length - 2, profile,
+                                   PROFILE_MOST, &size) != LIBDEFLATE_SUCCESS)
+        size = 0;
+    if (profile && inflate) take_profile(name, profile, size, said);
+    libdeflate_free_decompressor(inflate);
+    free(profile);
+}
+
+/* The next `bytes` bytes, of a profile. */
+static void read_profile(FILE *file, size_t bytes, wf_color_said *said,
+                         void (*take)(const uint8_t *data, size_t bytes, wf_color_said *said)) {
+    uint8_t *data = bytes && bytes <= PROFILE_MOST ? malloc(bytes) : NULL;
+    if (data && fread(data, 1, bytes, file) == bytes) take(data, bytes, said);
+    free(data);
+}
+
 #define PNG_MOST_DATA 32
 
 static const struct {
@@ -63,10 +106,62 @@ static void read_png(FILE *file, wf_color_said *said) {
     while (fread(head, 1, sizeof head, file) == sizeof head && memcmp(head + 4, "IDAT", 4)) {
         size_t bytes = (size_t)wf_big_endian(head, 4);
         size_t taken = bytes <= sizeof data ? bytes : 0;
-        if (fread(data, 1, taken, file) != taken) return;
+        off_t at = ftello(file);
+        if (!memcmp(head + 4, "iCCP", 4)) read_profile(file, bytes, said, png_profile);
+        if (fseeko(file, at, SEEK_SET) || fread(data, 1, taken, file) != taken) return;
         if (taken) take_chunk(head + 4, data, bytes, said);
         if (fseeko(file, (off_t)(bytes - taken) + 4, SEEK_CUR)) return;
     }
+}
+
+/* ---- WebP: chunks of RIFF ---- */
+
+static void webp_profile(const uint8_t *data, size_t bytes, wf_color_said *said) {
+    take_profile("", data, bytes, said);
+}
+
+static void read_webp(FILE *file, wf_color_said *said) {
+    uint8_t head[8];
+    if (fseeko(file, 12, SEEK_SET)) return;
+    while (fread(head, 1, sizeof head, file) == sizeof head) {
+        size_t bytes =
+            head[4] | (size_t)head[5] << 8 | (size_t)head[6] << 16 | (size_t)head[7] << 24;
+        off_t at = ftello(file);
+        if (!memcmp(head, "ICCP", 4)) read_profile(file, bytes, said, webp_profile);
+        if (fseeko(file, at + (off_t)(bytes + bytes % 2), SEEK_SET)) return;
+    }
+}
+
+/* ---- JPEG: markers (ITU-T T.81), up to the frame's, which has the number of components ----
+ */
+
+static bool is_frame(int marker) {
+    return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 &&
+           marker != 0xcc;
+}
+
+static void read_jpeg(FILE *file, wf_color_said *said) {
+    uint8_t head[4], frame[6];
+    if (fseeko(file, 2, SEEK_SET)) return;
+    while (fread(head, 1, sizeof head, file) == sizeof head && head[0] == 0xff) {
+        size_t bytes = (size_t)wf_big_endian(head + 2, 2);
+        if (is_frame(head[1])) {
+            if (fread(frame, 1, sizeof frame, file) == sizeof frame) said->inks = frame[5] == 4;
+            return;
+        }
+        if (bytes < 2 || fseeko(file, (off_t)bytes - 2, SEEK_CUR)) return;
+    }
+}
+
+/* ---- TIFF ---- */
+
+static void read_tiff(FILE *file, wf_color_said *said) {
+    wf_tiff_tags tags;
+    if (!wf_tiff_tags_read(file, &tags)) return;
+    said->inks = tags.photometric == WF_TIFF_SEPARATED;
+    said->no_alpha = !tags.has_extra_samples;
+    said->has_chromaticities = tags.has_chromaticities;
+    memcpy(said->chromaticities, tags.chromaticities, sizeof tags.chromaticities);
 }
 
 /* ---- DPX ---- */
@@ -103,7 +198,8 @@ void wf_read_color_tags(const char *path, const char *format, wf_color_said *sai
     static const struct {
         const char *format;
         void (*read)(FILE *file, wf_color_said *said);
-    } readers[] = {{"png", read_png}, {"dpx", read_dpx}, {"hdr", read_hdr}};
+    } readers[] = {{"png", read_png},   {"dpx", read_dpx},   {"hdr", read_hdr},
+                   {"webp", read_webp}, {"jpeg", read_jpeg}, {"tiff", read_tiff}};
     for (size_t i = 0; i < sizeof readers / sizeof *readers; i++) {
         if (strcmp(readers[i].format, format)) continue;
         FILE *file = fopen(path, "rbe");

@@ -4,8 +4,9 @@
 #include "convert/media/image.h"
 
 /* Reads what a picture file of that format (wf_format_of) says of its colors where OpenImageIO
- * does not tell: chunks of PNG (ISO/IEC 15948: cICP, sRGB, gAMA, cHRM), fields of DPX (SMPTE ST
- * 268-1), PRIMARIES of Radiance's HDR. Adds to *said; what cannot be read is not said. */
+ * does not tell: chunks of PNG (ISO/IEC 15948: cICP, sRGB, gAMA, cHRM, iCCP) and WebP (ICCP),
+ * fields of DPX (SMPTE ST 268-1), PRIMARIES of Radiance's HDR, tags of TIFF, inks of JPEG. Adds
+ * to *said; what cannot be read is not said. */
 void wf_read_color_tags(const char *path, const char *format, wf_color_said *said);
 
 #endif

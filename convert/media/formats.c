@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/media/tiff_tags.h"
 
 /* A file under examination. */
 typedef struct exam {
@@ -151,6 +152,22 @@ static bool looks_like_tga(const exam *x) {
            (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
 }
 
+/* ---- TIFF ---- */
+
+/* What OpenImageIO would hand out as R G B all the same. */
+static weft_status examine_tiff(const exam *x) {
+    wf_tiff_tags tags;
+    if (!wf_tiff_tags_read(x->file, &tags)) return cut_short(x, "it has no directory");
+    bool negative = tags.photometric == WF_TIFF_WHITE_IS_ZERO && tags.bits > 8;
+    if (!negative && tags.photometric < WF_TIFF_CIELAB) return WEFT_OK;
+    return wf_fail(x->err, WEFT_FAILED,
+                   "%.700s: a TIFF of %s, which weft does not read; write it as R G B or gray",
+                   x->path,
+                   negative                                ? "16 bits and more whose 0 is white"
+                   : tags.photometric < WF_TIFF_CIELAB + 3 ? "CIE L*a*b*"
+                                                           : "a rare photometric kind");
+}
+
 /* ---- The formats ---- */
 
 static weft_status examine_nothing(const exam *x) {
@@ -179,10 +196,10 @@ static const struct {
     {"openexr", "\x76\x2f\x31\x01", 4, examine_nothing},
     {"dpx", "SDPX", 4, examine_dpx},
     {"dpx", "XPDS", 4, examine_dpx},
-    {"tiff", "II*\0", 4, examine_nothing},
-    {"tiff", "MM\0*", 4, examine_nothing},
-    {"tiff", "II+\0", 4, examine_nothing},
-    {"tiff", "MM\0+", 4, examine_nothing},
+    {"tiff", "II*\0", 4, examine_tiff},
+    {"tiff", "MM\0*", 4, examine_tiff},
+    {"tiff", "II+\0", 4, examine_tiff},
+    {"tiff", "MM\0+", 4, examine_tiff},
     {"png", "\x89PNG\r\n\x1a\n", 8, examine_png},
     {"jpeg", "\xff\xd8\xff", 3, examine_jpeg},
     {"hdr", "#?RADIAN", 8, examine_nothing},

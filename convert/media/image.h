@@ -25,6 +25,8 @@ typedef struct wf_color_said {
     bool srgb;               /* a PNG has an sRGB chunk */
     double gamma;            /* of PNG's gAMA: signals are light to this power; 0: none */
     char profile[64]; /* what an ICC profile calls itself that is not of sRGB; "" if none */
+    bool inks;        /* samples are amounts of four inks, of which R G B were made */
+    bool no_alpha;    /* the file does not call its fourth channel alpha */
     bool dpx;         /* it is a DPX, with these fields of ST 268: */
     int dpx_transfer, dpx_colorimetric;
 } wf_color_said;

@@ -116,6 +116,11 @@ static bool by_code_points(const wf_color_said *said, wf_file_colors *out) {
     const wf_chromaticities *primaries = wf_chromaticities_of_code_point(said->primaries);
     if (!said->transfer || said->transfer == 2) return false;
     if (primaries) take_primaries(primaries, out);
+    if (!primaries && said->primaries != 2) {
+        char code[16];
+        snprintf(code, sizeof code, "%d", said->primaries);
+        warn(out, "its cICP says unknown color primaries", code, "Rec. 709's");
+    }
     out->transfer_said = true;
     if (!wf_decoding_of_code_point(said->transfer, &out->decoding))
         snprintf(out->trouble, sizeof out->trouble,
@@ -135,16 +140,30 @@ static void by_gamma(const wf_color_said *said, wf_file_colors *out) {
     out->transfer_said = true;
 }
 
+static bool has_other_primaries(const wf_color_said *said) {
+    wf_file_colors own = {.primaries = wf_chromaticities_of[WF_PRIMARIES_709]};
+    by_chromaticities(said, &own);
+    return wf_primaries_like(&own.primaries) != WF_PRIMARIES_709;
+}
+
 static void of_codes(const wf_color_said *said, wf_file_colors *out) {
     out->decoding = wf_decoding_of(&wf_curve_srgb);
     if (by_code_points(said, out)) return;
+    if (said->inks) {
+        warn(out,
+             "its colors are amounts of ink (CMYK), of which R G B are made without a profile",
+             "", "sRGB");
+        return;
+    }
     if (*said->profile) {
         warn(out, "its ICC profile is not of sRGB, and weft does not read it:", said->profile,
              "sRGB");
         return;
     }
     out->primaries_said = out->transfer_said = said->srgb;
-    if (!said->srgb) by_gamma(said, out);
+    if (said->bits && !said->srgb) by_gamma(said, out);
+    if (!said->bits && has_other_primaries(said))
+        warn(out, "its chromaticities are not those of sRGB", "", "sRGB");
 }
 
 /* ---- DPX ---- */

@@ -30,13 +30,14 @@ weft_status wf_subframe_settle_colors(wf_subframe *s, const wf_source_options *o
     }
     if (*s->colors.trouble)
         return wf_fail(err, WEFT_USAGE, "%s: %s", s->path, s->colors.trouble);
-    if (!s->colors.decoding.encoded) return WEFT_OK;
+    if (!wf_decoding_changes(&s->colors.decoding)) return WEFT_OK;
     s->owns_decode = wf_decoding_transform(&s->colors.decoding, &s->decode);
     return s->owns_decode ? WEFT_OK
                           : wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to decode it", s->path);
 }
 
 void wf_subframe_settle_alpha(wf_subframe *s, const wf_source_options *o) {
+    if (s->info.colors.no_alpha) s->pick.count = 3;
     bool given = o->alpha != WF_ALPHA_UNSET, has = s->pick.count == 4;
     if (given) s->info.alpha = o->alpha;
     if (!has) s->info.alpha = WF_ALPHA_UNSET;

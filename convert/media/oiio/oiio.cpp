@@ -248,6 +248,7 @@ struct Reading {
     const int *channel;
     int count;
     int first, end; // the file's channels that are read, the picked ones among them
+    int alpha;      // the file's channel by which its reader has multiplied; -1: none
     std::vector<float> slab;
 };
 
@@ -257,6 +258,21 @@ bool read_slab(ImageInput &in, const ImageSpec &spec, Reading &r, int y0, int y1
                              r.first, r.end, TypeDesc::FLOAT, r.slab.data());
     return in.read_scanlines(r.part, 0, y0, y1, spec.z, r.first, r.end, TypeDesc::FLOAT,
                              r.slab.data());
+}
+
+// OpenImageIO 2.4 multiplies WebP's straight codes by alpha, whatever it is asked for; a reader
+// that leaves them says so by an attribute.
+int multiplied_by(const ImageInput &in, const ImageSpec &spec) {
+    const bool left = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+    return std::strcmp(in.format_name(), "webp") || left ? -1 : spec.alpha_channel;
+}
+
+void divide_slab(Reading &r, size_t samples) {
+    const size_t step = size_t(r.end - r.first), a = size_t(r.alpha - r.first);
+    float *pixel = r.slab.data();
+    for (size_t i = 0; i < samples; i++, pixel += step)
+        for (size_t c = 0; c < step; c++)
+            if (c != a && pixel[a] > 0) pixel[c] = std::min(pixel[c] / pixel[a], 1.0f);
 }
 
 void spread_slab(const ImageSpec &spec, const Reading &r, int y0, int y1, float *planes) {
@@ -282,6 +298,7 @@ weft_status read_picture(Input &in, const ImageSpec &spec, Reading &r, float *pl
                      end - 1 - spec.full_y);
             return trouble(in.reader, r.path, doing, err);
         }
+        if (r.alpha >= r.first) divide_slab(r, size_t(spec.width) * size_t(end - y));
         spread_slab(spec, r, y, end, planes);
     }
     if (!in.file->starved) return WEFT_OK;
@@ -302,7 +319,9 @@ weft_status read_checked(Input &in, Reading &r, const wf_box &data, float *plane
     const ImageSpec spec = in.reader->spec();
     const auto range = std::minmax_element(r.channel, r.channel + r.count);
     r.first = *range.first;
-    r.end = *range.second + 1;
+    r.alpha = multiplied_by(*in.reader, spec);
+    if (r.alpha >= 0) r.first = std::min(r.first, r.alpha);
+    r.end = std::max(*range.second, r.alpha) + 1;
     weft_status status = check_picture(r.path, spec, err);
     if (status) return status;
     if (!same_window(spec, data) || r.first < 0 || r.end > spec.nchannels)
@@ -338,7 +357,7 @@ extern "C" weft_status wf_oiio_read(const char *path, int part, const int *chann
                                     const wf_box *data, float *planes, weft_error *err) {
     return guarded(path, err, [&] {
         Input in;
-        Reading reading = {path, std::max(part, 0), channel, count, 0, 0, {}};
+        Reading reading = {path, std::max(part, 0), channel, count, 0, 0, -1, {}};
         weft_status status = open_input(path, part, in, err);
         return status ? status : read_checked(in, reading, *data, planes, err);
     });
