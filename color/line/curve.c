@@ -9,8 +9,8 @@
     .power_high = HIGH(p), .power_low = (float)((p) - (double)HIGH(p)),                        \
     .inverse_high = HIGH(1 / (p)), .inverse_low = (float)(1 / (p) - (double)HIGH(1 / (p)))
 
-/* Where a power has no straight toe: its light is nothing. */
-#define NO_LIGHT_SIGNAL 1e-12f
+/* Below this a power that has no straight toe makes no light: gamma 2.4 would make 7e-16. */
+#define NO_LIGHT_SIGNAL 0x1p-21f
 
 const wf_curve wf_curve_bt1886 = {.kind = WF_CURVE_POWER,
                                   POWER(1 / 2.4),

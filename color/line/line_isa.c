@@ -1,9 +1,11 @@
 /* The inner loops of color: curves, matrices, chroma and codes along lines of samples.
  * Nothing here branches on a sample, so that the compiler makes vectors of all of it. */
+#include "color/line/gamma.h"
 #include "color/line/line.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "filters/base/isa_file.h"
@@ -94,7 +96,7 @@ static inline float signed_as(float magnitude, float x) {
 #define SIGN 0x80000000u
 
 /* The sign is moved as a bit, since the loop runs for every sample of an output. */
-static void power_curve(const wf_curve *curve, float *restrict light, size_t count) {
+static void any_power_curve(const wf_curve *curve, float *restrict light, size_t count) {
     const wf_curve c = *curve;
     for (size_t i = 0; i < count; i++) {
         uint32_t bits = bits_of(light[i]);
@@ -107,13 +109,69 @@ static void power_curve(const wf_curve *curve, float *restrict light, size_t cou
     }
 }
 
-static void power_decode(const wf_curve *curve, float *restrict signal, size_t count) {
+static void any_power_decode(const wf_curve *curve, float *restrict signal, size_t count) {
     const wf_curve c = *curve;
     for (size_t i = 0; i < count; i++) {
         float given = within(signal[i], WF_MOST_SIGNAL), v = fabsf(given);
         float light = power((v + c.offset) / c.gain, c.inverse_high, c.inverse_low);
         signal[i] = signed_as(v < c.toe_signal ? c.toe_light * v : light, given);
     }
+}
+
+/* ---- Powers of 2.4, which are most ---- */
+
+static bool has_gamma(const wf_curve *c) {
+    return c->inverse_high == wf_curve_bt1886.inverse_high &&
+           c->inverse_low == wf_curve_bt1886.inverse_low;
+}
+
+static inline lanes with_sign_of(lanes magnitude, lanes x) {
+    return (lanes)((whole_lanes)magnitude | ((whole_lanes)x & (int32_t)SIGN));
+}
+
+static inline lanes magnitude_within(lanes x, float most) {
+    lanes magnitude = (lanes)((whole_lanes)x & (int32_t)~SIGN);
+    return smaller(larger(magnitude, lanes_of(0)), lanes_of(most));
+}
+
+static inline lanes gamma_curve(const wf_curve *c, lanes light) {
+    lanes x = magnitude_within(light, WF_MOST_LIGHT);
+    lanes signal = c->gain * from_gamma(x) - c->offset;
+    return with_sign_of(by_limit(x, lanes_of(c->toe_end), c->toe_slope * x, signal), light);
+}
+
+static inline lanes gamma_decode(const wf_curve *c, lanes signal) {
+    lanes v = magnitude_within(signal, WF_MOST_SIGNAL);
+    lanes x = larger((v + c->offset) * (1 / c->gain), lanes_of(WF_GAMMA_BLACK));
+    return with_sign_of(by_limit(v, lanes_of(c->toe_signal), c->toe_light * v, to_gamma(x)),
+                        signal);
+}
+
+typedef lanes of_lanes(const wf_curve *curve, lanes x);
+
+static inline void each(const wf_curve *curve, of_lanes *of, float *line, size_t count) {
+    const wf_curve c = *curve;
+    float rest[LANES] = {0};
+    size_t whole = count / LANES * LANES, left = count - whole;
+    for (size_t i = 0; i < whole; i += LANES) put_lanes(line + i, of(&c, lanes_at(line + i)));
+    if (!left) return;
+    memcpy(rest, line + whole, left * sizeof *rest);
+    put_lanes(rest, of(&c, lanes_at(rest)));
+    memcpy(line + whole, rest, left * sizeof *rest);
+}
+
+static void power_curve(const wf_curve *curve, float *restrict light, size_t count) {
+    if (has_gamma(curve))
+        each(curve, gamma_curve, light, count);
+    else
+        any_power_curve(curve, light, count);
+}
+
+static void power_decode(const wf_curve *curve, float *restrict signal, size_t count) {
+    if (has_gamma(curve))
+        each(curve, gamma_decode, signal, count);
+    else
+        any_power_decode(curve, signal, count);
 }
 
 /* ((c1 + c2 t) / (1 + c3 t))^m2, t = x^m1. The base less 1 decides how accurate the power is;
