@@ -1,9 +1,9 @@
 /* Brings chroma of any siting to every luma sample of an axis. */
 #include "color/codes/upsample.h"
 
-#include <string.h>
-
 #include "color/codes/chroma.h"
+
+WF_ISA_DISPATCH(wf_upsample_ops)
 
 /* ---- Taps ---- */
 
@@ -30,14 +30,26 @@ static void init_phase(wf_upsample_phase *phase, int at, int parts) {
     while (tap[first] == 0) first++;
     while (tap[last] == 0) last--;
     *phase = (wf_upsample_phase){.first = first - MIDDLE, .count = last - first + 1};
-    memcpy(phase->tap, tap + first, (size_t)phase->count * sizeof *tap);
+    if (phase->count > 1) phase->middle = MIDDLE - first + (at > 0);
+    for (int i = 0; i < phase->count; i++) {
+        phase->tap[i] = (float)tap[first + i];
+        phase->fine_tap[i] = tap[first + i];
+    }
+}
+
+static int larger(int a, int b) {
+    return a > b ? a : b;
 }
 
 void wf_upsampler_init(wf_upsampler *u, int factor, bool center) {
     *u = (wf_upsampler){.factor = factor, .center = center && factor > 1};
     /* The first chroma sample lies (factor - 1) / 2 luma samples after the first, if amid. */
-    for (int p = 0; p < factor; p++)
-        init_phase(&u->phase[p], 2 * p - (u->center ? factor - 1 : 0), 2 * factor);
+    for (int p = 0; p < factor; p++) {
+        wf_upsample_phase *phase = &u->phase[p];
+        init_phase(phase, 2 * p - (u->center ? factor - 1 : 0), 2 * factor);
+        u->before = larger(u->before, -phase->first);
+        u->after = larger(u->after, phase->first + phase->count - 1);
+    }
 }
 
 /* ---- Lines ---- */
@@ -50,28 +62,42 @@ int wf_upsample_reflected(const wf_upsampler *u, int index, int count, int luma)
     return index;
 }
 
-/* Several sums side by side, so that they can be vectors. */
-enum { BESIDE = 8 };
-
-static void fill_phase(const wf_upsampler *u, int p, const double *chroma, int count,
-                       double *line) {
-    const wf_upsample_phase *phase = &u->phase[p];
-    for (int j = 0; j < count; j += BESIDE) {
-        const double *from = chroma + j + phase->first;
-        double sum[BESIDE] = {0};
-        for (int i = 0; i < phase->count; i++)
-            for (int b = 0; b < BESIDE; b++) sum[b] += phase->tap[i] * from[i + b];
-        for (int b = 0; b < BESIDE && j + b < count; b++)
-            line[(j + b) * u->factor + p] = sum[b];
-    }
+static void reflect_ends(const wf_upsampler *u, float *chroma, int count, int luma) {
+    for (int i = 1; i <= u->before; i++)
+        chroma[-i] = chroma[wf_upsample_reflected(u, -i, count, luma)];
+    for (int i = count; i < count + u->after; i++)
+        chroma[i] = chroma[wf_upsample_reflected(u, i, count, luma)];
 }
 
-void wf_upsample_line(const wf_upsampler *u, double *chroma, int count, double *line,
-                      int luma) {
-    for (int i = 1; i <= WF_UPSAMPLE_MARGIN; i++) {
-        chroma[-i] = chroma[wf_upsample_reflected(u, -i, count, luma)];
-        chroma[count - 1 + i] = chroma[wf_upsample_reflected(u, count - 1 + i, count, luma)];
+/* The samples of one phase, of which there are count or one less: what they are made of, if
+ * they are there. */
+static const float *phase_samples(const wf_upsampler *u, const wf_signal_loops *loops, int p,
+                                  const float *chroma, int count, float *spare) {
+    const wf_upsample_phase *phase = &u->phase[p];
+    if (phase->count == 1) return chroma + phase->first;
+    loops->weigh(spare, chroma, 1, phase, (size_t)count);
+    return spare;
+}
+
+static void fill_pairs(const wf_upsampler *u, const wf_signal_loops *loops, const float *chroma,
+                       float *spare, float *line, int luma) {
+    int pairs = luma / 2;
+    const float *even = phase_samples(u, loops, 0, chroma, luma - pairs, spare);
+    const float *odd = phase_samples(u, loops, 1, chroma, pairs, spare + luma - pairs);
+    wf_upsample_ops_best()->interleave(line, even, odd, (size_t)pairs);
+    if (luma % 2) line[luma - 1] = even[pairs];
+}
+
+void wf_upsample_line(const wf_upsampler *u, const wf_signal_loops *loops, float *chroma,
+                      int count, float *spare, float *line, int luma) {
+    reflect_ends(u, chroma, count, luma);
+    if (u->factor == 2) {
+        fill_pairs(u, loops, chroma, spare, line, luma);
+        return;
     }
-    for (int p = 0; p < u->factor && p < luma; p++)
-        fill_phase(u, p, chroma, (luma - p + u->factor - 1) / u->factor, line);
+    for (int p = 0; p < u->factor && p < luma; p++) {
+        int samples = (luma - p + u->factor - 1) / u->factor;
+        const float *from = phase_samples(u, loops, p, chroma, samples, spare);
+        for (int i = 0; i < samples; i++) line[i * u->factor + p] = from[i];
+    }
 }

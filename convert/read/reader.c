@@ -306,9 +306,10 @@ static weft_status made_rows(wf_reader *r, const wf_subframe *s, int y0, int y1,
         !wf_reserve(&r->tile, &r->tile_capacity, s->maker->scratch_bytes))
         return no_memory(s, err);
     point_at(&r->rows, r->plain);
-    for (int y = y0; y < y1; y++) {
+    for (int y = y0; y < y1; y += s->maker->most_rows) {
         float *at = r->plain + (size_t)(y - y0) * r->rows.line_stride;
-        s->maker->row(s->picture, y, r->tile, (float *[3]){at, at + plane, at + 2 * plane});
+        s->maker->rows(s->picture, y, least(y + s->maker->most_rows, y1), r->tile,
+                       (float *[3]){at, at + plane, at + 2 * plane});
     }
     r->decoder.suspect = false;
     return WEFT_OK;

@@ -52,8 +52,10 @@ void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */
 
 /* How rows of a picture that is no file are made: light, in float. */
 typedef struct wf_row_maker {
-    size_t scratch_bytes; /* that `row` needs, of the reader that calls it */
-    void (*row)(const void *picture, int y, void *scratch, float *const rgb[3]);
+    size_t scratch_bytes; /* that `rows` needs, of the reader that calls it */
+    int most_rows;        /* that are asked for at once */
+    /* Rows y0 <= y < y1 to rgb[c][(y - y0) width_px]. */
+    void (*rows)(const void *picture, int y0, int y1, void *scratch, float *const rgb[3]);
     void (*close)(void *picture); /* by wf_subframe_close */
 } wf_row_maker;
 

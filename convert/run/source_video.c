@@ -444,9 +444,9 @@ typedef struct shown {
     const uint16_t *plane[3];
 } shown;
 
-static void make_row(const void *picture, int y, void *scratch, float *const rgb[3]) {
+static void make_rows(const void *picture, int y0, int y1, void *scratch, float *const rgb[3]) {
     const shown *p = picture;
-    wf_light_row(p->light, p->plane, y, scratch, rgb);
+    wf_light_rows(p->light, p->plane, y0, y1, scratch, rgb);
 }
 
 static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
@@ -478,7 +478,7 @@ static int open_together(const video_source *s) {
 static wf_picture_desc describe(const wf_run *run) {
     video_source *s = run->source;
     int64_t looked_at = s->end_field < FIELDS_LOOKED_AT ? s->end_field : FIELDS_LOOKED_AT;
-    s->maker = (wf_row_maker){wf_light_scratch(s->light), make_row, free};
+    s->maker = (wf_row_maker){wf_light_scratch(s->light), WF_LIGHT_ROWS, make_rows, free};
     return (wf_picture_desc){s->resampler, &s->options, open_together(s), looked_at};
 }
 

@@ -2,6 +2,7 @@
 #include "convert/video/light.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "color/codes/levels.h"
 #include "color/codes/upsample.h"
@@ -10,15 +11,44 @@ struct wf_light {
     wf_meaning meaning;
     int width_px, lines;
     int chroma_width_px, chroma_lines;
-    bool has_chroma;             /* false: a lone Y */
-    double zero[3], per_code[3]; /* signal = (code - zero) per_code */
+    bool has_chroma; /* false: a lone Y */
+    double zero[3];  /* the code of 0 */
+    double scale;    /* of codes of R'G'B'; that of Y'CbCr is in the matrix */
     wf_upsampler across, down;
+    wf_rgb_of_chroma matrix;
+    const wf_signal_loops *loops;
     wf_transform decode; /* apply is NULL where R'G'B' is light */
     bool owns_decode;
 };
 
 static int parts(int size, int by) {
     return (size + by - 1) / by;
+}
+
+/* The range is in the matrix, so that what is made of codes by then is exact or nearly so. */
+static wf_rgb_of_chroma matrix_of(const wf_meaning *m, double luma, double chroma) {
+    double kg = 1 - m->kr - m->kb, of_cr = 2 * (1 - m->kr) * chroma,
+           of_cb = 2 * (1 - m->kb) * chroma;
+    return (wf_rgb_of_chroma){luma, of_cr, of_cb, m->kb * of_cb / kg, m->kr * of_cr / kg};
+}
+
+static void settle_codes(wf_light *l, const wf_encoding *encoding) {
+    double per_code[3];
+    for (int p = 0; p < 3; p++) {
+        double unit;
+        wf_code_scale(encoding, p, &l->zero[p], &unit);
+        per_code[p] = 1 / unit;
+    }
+    l->scale = l->meaning.ycbcr ? 1 : per_code[0];
+    l->matrix = matrix_of(&l->meaning, per_code[0], per_code[1]);
+}
+
+/* A power makes at most two and a half times of errors at white, and of black none. */
+static const wf_signal_loops *loops_for(const wf_meaning *m, const wf_transform *decode) {
+    const wf_decoding *d = &m->colors.decoding;
+    bool power = !d->encoded || d->curve.kind == WF_CURVE_POWER;
+    const wf_upsample_ops *ops = wf_upsample_ops_best();
+    return power && !decode ? &ops->quick : &ops->fine;
 }
 
 static weft_status no_memory(weft_error *err) {
@@ -37,13 +67,10 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
                     .chroma_width_px = parts(info->width_px, info->across),
                     .chroma_lines = parts(info->lines, info->down),
                     .has_chroma = info->planes == 3,
+                    .loops = loops_for(meaning, decode),
                     .owns_decode = !decode};
     if (decode) l->decode = *decode;
-    for (int p = 0; p < 3; p++) {
-        double unit;
-        wf_code_scale(&encoding, p, &l->zero[p], &unit);
-        l->per_code[p] = 1 / unit;
-    }
+    settle_codes(l, &encoding);
     /* Lines of chroma lie amid two lines of luma, but for top-left. */
     wf_upsampler_init(&l->across, info->across, info->tags.siting == WF_SITING_CENTER);
     wf_upsampler_init(&l->down, info->down, info->tags.siting != WF_SITING_TOP_LEFT);
@@ -56,75 +83,117 @@ void wf_light_free(wf_light *l) {
     free(l);
 }
 
+/* ---- Scratch ---- */
+
+/* What a thread makes rows in, all of it floats. */
+typedef struct rows_made {
+    int y0, y1;
+    float *held;       /* [held_lines][held_stride]: lines of one plane of chroma, from line */
+    int held_first;    /* held_first on, those beyond the picture's ends included */
+    float *brought[3]; /* [WF_LIGHT_ROWS][brought_stride]: chroma at every row, with margins */
+    float *spare;      /* [width] */
+} rows_made;
+
+/* A stride that is a multiple of the caches' ways would put whole columns at one place. */
+static size_t held_stride(const wf_light *l) {
+    size_t stride = ((size_t)l->chroma_width_px + 15) / 16 * 16;
+    return stride % 512 ? stride : stride + 16;
+}
+
+static size_t held_lines(const wf_light *l) {
+    return (size_t)(parts(WF_LIGHT_ROWS, l->down.factor) + 1 + l->down.before + l->down.after);
+}
+
+static size_t brought_stride(const wf_light *l) {
+    return (size_t)l->chroma_width_px + 2 * WF_UPSAMPLE_MARGIN;
+}
+
 size_t wf_light_scratch(const wf_light *l) {
-    return (3 * (size_t)l->width_px + (size_t)l->chroma_width_px + 2 * WF_UPSAMPLE_MARGIN) *
-           sizeof(double);
+    return (held_lines(l) * held_stride(l) + 2 * WF_LIGHT_ROWS * brought_stride(l) +
+            (size_t)l->width_px) *
+           sizeof(float);
 }
 
-/* ---- Signals ---- */
-
-static void signal_row(const wf_light *l, int p, const uint16_t *code, int count, double *out) {
-    double zero = l->zero[p], per_code = l->per_code[p];
-    for (int x = 0; x < count; x++) out[x] = (code[x] - zero) * per_code;
+static rows_made lay_out(const wf_light *l, int y0, int y1, float *scratch) {
+    rows_made m = {.y0 = y0, .y1 = y1, .held = scratch};
+    m.held_first = y0 / l->down.factor - l->down.before;
+    m.brought[1] = scratch + held_lines(l) * held_stride(l);
+    m.brought[2] = m.brought[1] + WF_LIGHT_ROWS * brought_stride(l);
+    m.spare = m.brought[2] + WF_LIGHT_ROWS * brought_stride(l);
+    return m;
 }
 
-/* Chroma as it is at luma row y, at its own columns. */
-static void chroma_at_row(const wf_light *l, int p, const uint16_t *plane, int y, double *out) {
-    int width = l->chroma_width_px, at = y / l->down.factor;
-    const wf_upsample_phase *phase = &l->down.phase[y % l->down.factor];
-    if (phase->count == 1) {
-        signal_row(l, p, plane + (size_t)at * (size_t)width, width, out);
+static float *brought_row(const wf_light *l, const rows_made *m, int p, int y) {
+    return m->brought[p] + (size_t)(y - m->y0) * brought_stride(l) + WF_UPSAMPLE_MARGIN;
+}
+
+/* ---- Chroma at every row ---- */
+
+static void hold_lines(const wf_light *l, const rows_made *m, int p, const uint16_t *plane) {
+    size_t width = (size_t)l->chroma_width_px;
+    int end = (m->y1 - 1) / l->down.factor + l->down.after + 1;
+    for (int i = m->held_first; i < end; i++) {
+        int line = wf_upsample_reflected(&l->down, i, l->chroma_lines, l->lines);
+        l->loops->signals(m->held + (size_t)(i - m->held_first) * held_stride(l),
+                          plane + (size_t)line * width, l->zero[p], l->scale, width);
+    }
+}
+
+/* Columns are taken some at a time, which are in the nearest cache for all rows. */
+enum { COLUMNS = 128 };
+
+static void weigh_columns(const wf_light *l, const rows_made *m, int p, int x) {
+    int left = l->chroma_width_px - x, count = left < COLUMNS ? left : COLUMNS;
+    for (int y = m->y0; y < m->y1; y++) {
+        int line = y / l->down.factor - m->held_first;
+        l->loops->weigh(brought_row(l, m, p, y) + x,
+                        m->held + (size_t)line * held_stride(l) + x, (ptrdiff_t)held_stride(l),
+                        &l->down.phase[y % l->down.factor], (size_t)count);
+    }
+}
+
+static void bring_down(const wf_light *l, const rows_made *m, int p, const uint16_t *plane) {
+    size_t width = (size_t)l->chroma_width_px;
+    if (l->down.factor == 1) {
+        for (int y = m->y0; y < m->y1; y++)
+            l->loops->signals(brought_row(l, m, p, y), plane + (size_t)y * width, l->zero[p],
+                              l->scale, width);
         return;
     }
-    for (int x = 0; x < width; x++) out[x] = -l->zero[p] * l->per_code[p];
-    for (int i = 0; i < phase->count; i++) {
-        int line =
-            wf_upsample_reflected(&l->down, at + phase->first + i, l->chroma_lines, l->lines);
-        const uint16_t *code = plane + (size_t)line * (size_t)width;
-        double share = phase->tap[i] * l->per_code[p];
-        for (int x = 0; share != 0 && x < width; x++) out[x] += share * code[x];
-    }
-}
-
-static void chroma_row(const wf_light *l, int p, const uint16_t *plane, int y, double *spare,
-                       double *out) {
-    if (l->across.factor == 1) {
-        chroma_at_row(l, p, plane, y, out);
-        return;
-    }
-    chroma_at_row(l, p, plane, y, spare);
-    wf_upsample_line(&l->across, spare, l->chroma_width_px, out, l->width_px);
+    hold_lines(l, m, p, plane);
+    for (int x = 0; x < l->chroma_width_px; x += COLUMNS) weigh_columns(l, m, p, x);
 }
 
 /* ---- Light ---- */
 
-static void rgb_of_ycbcr(const wf_light *l, double *const signal[3]) {
-    const wf_meaning *m = &l->meaning;
-    double kg = 1 - m->kr - m->kb, of_cr = 2 * (1 - m->kr), of_cb = 2 * (1 - m->kb);
-    for (int x = 0; x < l->width_px; x++) {
-        double y = signal[0][x], r = y + of_cr * signal[2][x], b = y + of_cb * signal[1][x];
-        signal[0][x] = r;
-        signal[1][x] = (y - m->kr * r - m->kb * b) / kg;
-        signal[2][x] = b;
-    }
+/* A lone Y is gray. */
+static void fill_chroma(const wf_light *l, const rows_made *m, int y, float *const rgb[3]) {
+    size_t bytes = (size_t)l->width_px * sizeof(float);
+    for (int p = 1; p < 3; p++)
+        if (l->has_chroma)
+            wf_upsample_line(&l->across, l->loops, brought_row(l, m, p, y), l->chroma_width_px,
+                             m->spare, rgb[p], l->width_px);
+        else if (l->meaning.ycbcr)
+            memset(rgb[p], 0, bytes);
+        else
+            memcpy(rgb[p], rgb[0], bytes);
 }
 
-static void round_row(const double *signal, int count, float *out) {
-    for (int x = 0; x < count; x++) out[x] = (float)signal[x];
-}
-
-void wf_light_row(const wf_light *l, const uint16_t *const plane[3], int y, void *scratch,
-                  float *const rgb[3]) {
+static void light_row(const wf_light *l, const rows_made *m, const uint16_t *luma, int y,
+                      float *const rgb[3]) {
     size_t width = (size_t)l->width_px;
-    double *signal[3] = {scratch, (double *)scratch + width, (double *)scratch + 2 * width};
-    double *spare = signal[2] + width + WF_UPSAMPLE_MARGIN;
-    signal_row(l, 0, plane[0] + (size_t)y * width, l->width_px, signal[0]);
-    for (int p = 1; p < 3; p++) {
-        for (size_t x = 0; !l->has_chroma && x < width; x++)
-            signal[p][x] = l->meaning.ycbcr ? 0 : signal[0][x];
-        if (l->has_chroma) chroma_row(l, p, plane[p], y, spare, signal[p]);
-    }
-    if (l->meaning.ycbcr) rgb_of_ycbcr(l, signal);
-    for (int c = 0; c < 3; c++) round_row(signal[c], l->width_px, rgb[c]);
+    l->loops->signals(rgb[0], luma + (size_t)y * width, l->zero[0], l->scale, width);
+    fill_chroma(l, m, y, rgb);
+    if (l->meaning.ycbcr) l->loops->rgb(&l->matrix, rgb[0], rgb[1], rgb[2], width);
     if (l->decode.apply) l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
+}
+
+void wf_light_rows(const wf_light *l, const uint16_t *const plane[3], int y0, int y1,
+                   void *scratch, float *const rgb[3]) {
+    const rows_made m = lay_out(l, y0, y1, scratch);
+    for (int p = 1; l->has_chroma && p < 3; p++) bring_down(l, &m, p, plane[p]);
+    for (int y = y0; y < y1; y++) {
+        size_t at = (size_t)(y - y0) * (size_t)l->width_px;
+        light_row(l, &m, plane[0], y, (float *[3]){rgb[0] + at, rgb[1] + at, rgb[2] + at});
+    }
 }

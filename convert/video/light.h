@@ -4,8 +4,8 @@
 #include "convert/video/meaning.h"
 
 /* Rows of light from the codes of a picture: chroma at every luma sample, R'G'B' by the matrix
- * and the range, both in double, and light by the transfer. 1 is reference white, and what lies
- * below black, above white or out of gamut is kept. */
+ * and the range, and light by the transfer, all in float, within 1e-6 of full scale. 1 is
+ * reference white, and what lies below black, above white or out of gamut is kept. */
 typedef struct wf_light wf_light;
 
 /* Light from codes of this kind. decode makes light of R'G'B', and is borrowed; NULL: as the
@@ -15,11 +15,13 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
                          const wf_transform *decode, wf_light **out, weft_error *err);
 void wf_light_free(wf_light *light); /* NULL is fine */
 
-/* Bytes of scratch that a row needs, aligned for doubles. */
+/* Most rows that are made at once, and bytes of scratch for them. */
+#define WF_LIGHT_ROWS 16
 size_t wf_light_scratch(const wf_light *light);
 
-/* Row y of the picture whose codes are in plane, [lines][width_px] each. */
-void wf_light_row(const wf_light *light, const uint16_t *const plane[3], int y, void *scratch,
-                  float *const rgb[3]);
+/* Rows y0 <= y < y1 of the picture whose codes are in plane, [lines][width_px] each, to
+ * rgb[c][(y - y0) width_px]. The bits do not depend on which rows are made together. */
+void wf_light_rows(const wf_light *light, const uint16_t *const plane[3], int y0, int y1,
+                   void *scratch, float *const rgb[3]);
 
 #endif

@@ -17,8 +17,8 @@ static void make_rows(const wf_light *light, const wf_video_info *info,
     float *rgb = malloc(3 * width * sizeof *rgb);
     if (!scratch || !rgb) abort();
     for (int y = 0; y < info->lines; y++)
-        wf_light_row(light, (const uint16_t *[3]){plane[0], plane[1], plane[2]}, y, scratch,
-                     (float *[3]){rgb, rgb + width, rgb + 2 * width});
+        wf_light_rows(light, (const uint16_t *[3]){plane[0], plane[1], plane[2]}, y, y + 1,
+                      scratch, (float *[3]){rgb, rgb + width, rgb + 2 * width});
     free(scratch);
     free(rgb);
 }

@@ -1,6 +1,7 @@
-/* Lines of color, for test_isa.c. */
+/* Lines of color and codes, for test_isa.c. */
 #include <math.h>
 
+#include "color/codes/upsample.h"
 #include "color/line/line.h"
 #include "tests/unit/support/levels.h"
 
@@ -131,6 +132,103 @@ static void quantize(level_run *r) {
     level_keep_codes(r, code, r->count);
 }
 
+/* ---- From codes to R'G'B' ---- */
+
+static const wf_upsample_ops *upsample_at(const level_run *r) {
+    return wf_upsample_ops_at(r->level);
+}
+
+static void signals(level_run *r, bool fine) {
+    uint16_t *code = level_halves(r, r->count);
+    float *out = level_floats(r, r->count);
+    double zero = 512, per_code = level_draw(r) % 2 ? 1 : 1 / 896.0;
+    const wf_upsample_ops *ops = upsample_at(r);
+    if (!r->plain)
+        (fine ? &ops->fine : &ops->quick)->signals(out, code, zero, per_code, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        out[i] = fine ? (float)((code[i] - zero) * per_code)
+                      : ((float)code[i] - 512.0f) * (float)per_code;
+    level_keep_floats(r, out, r->count);
+}
+
+static void quick_signals(level_run *r) {
+    signals(r, false);
+}
+
+static void fine_signals(level_run *r) {
+    signals(r, true);
+}
+
+/* Along a line, whose ends are memory's, or down columns. */
+static void weigh(level_run *r, bool fine) {
+    wf_upsampler u;
+    int factor = 1 << level_draw(r) % 3;
+    wf_upsampler_init(&u, factor, level_draw(r) % 2);
+    const wf_upsample_phase *p = &u.phase[level_draw(r) % (uint32_t)factor];
+    size_t beyond = (size_t)(p->count - 1), step = level_draw(r) % 2 ? 1 : 19;
+    float *chroma = level_floats(r, r->count + beyond * step);
+    float *out = level_floats(r, r->count);
+    const float *from = chroma - p->first * (ptrdiff_t)step;
+    const wf_upsample_ops *ops = upsample_at(r);
+    if (!r->plain)
+        (fine ? &ops->fine : &ops->quick)->weigh(out, from, (ptrdiff_t)step, p, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        double sum = 0;
+        for (size_t k = 0; k <= beyond; k++)
+            sum += p->fine_tap[k] * (double)chroma[i + k * step];
+        out[i] = (float)sum;
+    }
+    level_keep_floats(r, out, r->count);
+}
+
+static void quick_weigh(level_run *r) {
+    weigh(r, false);
+}
+
+static void fine_weigh(level_run *r) {
+    weigh(r, true);
+}
+
+static void rgb(level_run *r, bool fine) {
+    const wf_rgb_of_chroma m = {1 / 876.0, 1.5748 / 896, 1.8556 / 896, 0.1873 / 896,
+                                0.4681 / 896};
+    float *ycc[3];
+    for (int c = 0; c < 3; c++) ycc[c] = level_floats(r, r->count);
+    const wf_upsample_ops *ops = upsample_at(r);
+    if (!r->plain) (fine ? &ops->fine : &ops->quick)->rgb(&m, ycc[0], ycc[1], ycc[2], r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        double y = m.luma * (double)ycc[0][i], b = (double)ycc[1][i], red = (double)ycc[2][i];
+        ycc[0][i] = (float)(y + m.of_cr * red);
+        ycc[1][i] = (float)(y - (m.green_cb * b + m.green_cr * red));
+        ycc[2][i] = (float)(y + m.of_cb * b);
+    }
+    keep_planes(r, ycc);
+}
+
+static void quick_rgb(level_run *r) {
+    rgb(r, false);
+}
+
+static void fine_rgb(level_run *r) {
+    rgb(r, true);
+}
+
+static void interleave(level_run *r) {
+    float *even = level_floats(r, r->count), *odd = level_floats(r, r->count);
+    float *out = level_floats(r, 2 * r->count);
+    if (!r->plain) upsample_at(r)->interleave(out, even, odd, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        out[2 * i] = even[i], out[2 * i + 1] = odd[i];
+    level_keep_floats(r, out, 2 * r->count);
+}
+
+static const level_row upsample_rows[] = {
+    {"quick.signals", quick_signals, true, 0},    {"quick.weigh", quick_weigh, true, 4e-7},
+    {"quick.rgb", quick_rgb, true, 3e-7},         {"fine.signals", fine_signals, true, 0},
+    {"fine.weigh", fine_weigh, true, 0},          {"fine.rgb", fine_rgb, true, 0},
+    {"upsample.interleave", interleave, true, 0},
+};
+
 static const level_row rows[] = {
     {"line.mix", mix, true, 0},
     {"line.curve, powers", power_curves, false, 0},
@@ -147,5 +245,6 @@ static const level_row rows[] = {
 
 const level_table level_color[] = {
     LEVEL_TABLE("color/line/line_isa.c", wf_line_ops, rows),
+    LEVEL_TABLE("color/codes/upsample_isa.c", wf_upsample_ops, upsample_rows),
     {.file = NULL},
 };

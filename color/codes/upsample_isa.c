@@ -1,0 +1,110 @@
+/* The inner loops from codes to R'G'B': codes to signals, sums of chroma, the matrix. */
+#include "color/codes/upsample.h"
+
+#include "color/line/lanes.h"
+#include "filters/base/isa_file.h"
+
+/* ---- In float ---- */
+
+static void signals(float *restrict signal, const uint16_t *restrict code, double zero,
+                    double per_code, size_t count) {
+    float whole_zero = (float)zero, scale = (float)per_code;
+    for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
+}
+
+/* Vectors side by side, so that no sum waits for another. */
+enum { BESIDE = 2 };
+
+/* Taps k, k + by, .. up to but not with `end`. */
+static inline void add_taps(lanes sum[BESIDE], const float *from, ptrdiff_t step,
+                            const float *tap, int k, int end, int by) {
+    for (; k != end; k += by)
+        for (int b = 0; b < BESIDE; b++)
+            sum[b] += tap[k] * lanes_at(from + k * step + b * LANES);
+}
+
+static inline void weigh_lanes(float *out, const float *from, ptrdiff_t step,
+                               const wf_upsample_phase *p) {
+    lanes before[BESIDE] = {{0}}, after[BESIDE] = {{0}};
+    add_taps(before, from, step, p->tap, 0, p->middle, 1);
+    add_taps(after, from, step, p->tap, p->count - 1, p->middle - 1, -1);
+    for (int b = 0; b < BESIDE; b++) put_lanes(out + b * LANES, before[b] + after[b]);
+}
+
+static inline float weigh_one(const float *from, ptrdiff_t step, const wf_upsample_phase *p) {
+    float before = 0, after = 0;
+    for (int k = 0; k < p->middle; k++) before += p->tap[k] * from[k * step];
+    for (int k = p->count - 1; k >= p->middle; k--) after += p->tap[k] * from[k * step];
+    return before + after;
+}
+
+static void weigh(float *restrict out, const float *restrict chroma, ptrdiff_t step,
+                  const wf_upsample_phase *phase, size_t count) {
+    const float *from = chroma + phase->first * step;
+    size_t i = 0;
+    for (; i + BESIDE * LANES <= count; i += BESIDE * LANES)
+        weigh_lanes(out + i, from + i, step, phase);
+    for (; i < count; i++) out[i] = weigh_one(from + i, step, phase);
+}
+
+static void rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *restrict cb,
+                float *restrict cr, size_t count) {
+    float of_y = (float)matrix->luma, of_cr = (float)matrix->of_cr,
+          of_cb = (float)matrix->of_cb;
+    float green_cb = (float)matrix->green_cb, green_cr = (float)matrix->green_cr;
+    for (size_t i = 0; i < count; i++) {
+        float luma = of_y * y[i], blue = cb[i], red = cr[i];
+        y[i] = luma + of_cr * red;
+        cb[i] = luma - (green_cb * blue + green_cr * red);
+        cr[i] = luma + of_cb * blue;
+    }
+}
+
+/* ---- In double ---- */
+
+static void fine_signals(float *restrict signal, const uint16_t *restrict code, double zero,
+                         double per_code, size_t count) {
+    for (size_t i = 0; i < count; i++) signal[i] = (float)((code[i] - zero) * per_code);
+}
+
+enum { FINE = 16 }; /* sums side by side */
+
+static void fine_weigh(float *restrict out, const float *restrict chroma, ptrdiff_t step,
+                       const wf_upsample_phase *phase, size_t count) {
+    const float *from = chroma + phase->first * step;
+    for (size_t i = 0; i < count; i += FINE) {
+        size_t some = count - i < FINE ? count - i : FINE;
+        double sum[FINE] = {0};
+        for (int k = 0; k < phase->count; k++)
+            for (size_t b = 0; b < some; b++)
+                sum[b] += phase->fine_tap[k] * (double)from[k * step + (ptrdiff_t)(i + b)];
+        for (size_t b = 0; b < some; b++) out[i + b] = (float)sum[b];
+    }
+}
+
+static void fine_rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *restrict cb,
+                     float *restrict cr, size_t count) {
+    const wf_rgb_of_chroma m = *matrix;
+    for (size_t i = 0; i < count; i++) {
+        double luma = m.luma * (double)y[i], blue = (double)cb[i], red = (double)cr[i];
+        y[i] = (float)(luma + m.of_cr * red);
+        cb[i] = (float)(luma - (m.green_cb * blue + m.green_cr * red));
+        cr[i] = (float)(luma + m.of_cb * blue);
+    }
+}
+
+/* ---- Both ---- */
+
+static void interleave(float *restrict out, const float *restrict even,
+                       const float *restrict odd, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = even[i];
+        out[2 * i + 1] = odd[i];
+    }
+}
+
+const wf_upsample_ops WF_ISA_TABLE(wf_upsample_ops) = {
+    .quick = {signals, weigh, rgb},
+    .fine = {fine_signals, fine_weigh, fine_rgb},
+    .interleave = interleave,
+};
