@@ -73,11 +73,13 @@ WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *v
  * names file, line and column; the job is then part set and good for weft_job_free only. */
 WEFT_API weft_status weft_job_load(weft_job *job, const char *path, weft_error *err);
 
-/* Progress of weft_job_run, called from the thread that called it, between frames. */
+/* Progress of weft_job_run, called from the thread that called it: between frames and, now and
+ * then, within one that takes long. */
 typedef struct weft_progress {
     int64_t frames_done, frames_total;
     double seconds;    /* since the run began */
     const char *stage; /* what the job does; static storage */
+    double frame_part; /* of the frame that is being made, 0 to 1 */
 } weft_progress;
 typedef void weft_progress_fn(const weft_progress *progress, void *user);
 WEFT_API void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user);
@@ -85,6 +87,10 @@ WEFT_API void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *us
 /* Messages that do not stop the job (an aspect that will be stretched, subframes held). */
 typedef void weft_warning_fn(const char *text, void *user);
 WEFT_API void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user);
+
+/* Lines that a scene prints, without their end; a few thousand at most. */
+typedef void weft_print_fn(const char *line, void *user);
+WEFT_API void weft_job_on_print(weft_job *job, weft_print_fn *fn, void *user);
 
 /* Runs the job to its end. Uses the number of threads the option says. WEFT_DEGRADED is a
  * finished run. On any failure no file stands at the output's name that was not there before.

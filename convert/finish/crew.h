@@ -21,9 +21,13 @@ typedef struct wf_crew {
     weft_job *job; /* whose cancelling is heeded, and who is told of progress */
     wf_worker *workers;
     int threads;
-    atomic_bool stop;    /* a worker has failed */
-    int64_t done, total; /* frames (or subframes) written, and to be written */
-    double began_s;
+    atomic_bool stop;       /* a worker has failed */
+    int64_t done, total;    /* frames (or subframes) written, and to be written */
+    double began_s, told_s; /* when the run began, and progress was last told of */
+    /* Where in a frame the work in hand begins, how much of one it is, and its pieces. */
+    double part, part_share;
+    int piece_count;
+    atomic_int pieces_done;
 } wf_crew;
 
 /* threads: 0 for what the job asks for. The job must outlive the crew. Whatever the status,
@@ -56,6 +60,13 @@ weft_status wf_crew_status(const wf_crew *crew, weft_error *err);
 
 /* One frame more is done: tells the job's progress function. */
 void wf_crew_step(wf_crew *crew);
+
+/* What wf_crew_in_order is given next begins at `part` of the frame that is being made, and is
+ * `share` of it: progress is told of within it. */
+void wf_crew_part(wf_crew *crew, double part, double share);
+
+/* Tells of progress within a frame, if the last time was long ago; any worker, at any time. */
+void wf_crew_tick(wf_crew *crew, const wf_worker *worker);
 
 /* The seconds of all workers together. */
 wf_worker wf_crew_times(const wf_crew *crew);

@@ -80,6 +80,7 @@ static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full)
         .subsampled = s->output.kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
         .separate_fields = job->separate_fields,
         .stream_header = job->chunk == 1,
+        .chunked = job->chunk_count > 1,
         .timecode = job->timecode ? job->timecode : "00:00:00:00",
         .color_space = s->color_space,
         .codec = job->codec,

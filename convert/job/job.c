@@ -55,6 +55,11 @@ void weft_job_on_warning(weft_job *job, weft_warning_fn *fn, void *user) {
     job->warning_user = user;
 }
 
+void weft_job_on_print(weft_job *job, weft_print_fn *fn, void *user) {
+    job->print = fn;
+    job->print_user = user;
+}
+
 void wf_job_warn(const weft_job *job, const char *format, ...) {
     if (!job->warning) return;
     char text[1024];

@@ -73,6 +73,8 @@ struct weft_job {
     void *progress_user;
     weft_warning_fn *warning;
     void *warning_user;
+    weft_print_fn *print;
+    void *print_user;
     volatile sig_atomic_t cancelled;
     char *report; /* JSON of the last run */
     char *plan;   /* of a dry run, for people; NULL: there is none */

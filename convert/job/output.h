@@ -38,6 +38,7 @@ typedef struct wf_output_options {
     int64_t frame_count;                /* -1: not known before the end */
     bool separate_fields;               /* sequences: a file a field */
     bool stream_header;                 /* false: a later chunk, to be joined by cat */
+    bool chunked;                       /* one of several chunks, of which each has files */
     const char *timecode;               /* of frame 0; validated */
     const char *color_space;            /* what the codes are in, for metadata; "" if unknown */
     const wf_chromaticities *primaries; /* of light; NULL: what color_space tells of them */

@@ -26,6 +26,12 @@ static void on_warning(const char *text, void *user) {
     wf_cmd_say("warning: ", text);
 }
 
+static void on_print(const char *line, void *user) {
+    job_state *state = user;
+    wf_meter_clear(&state->meter);
+    fprintf(stderr, "%s\n", line);
+}
+
 static weft_status check_state(job_state *state, weft_error *err) {
     weft_status status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
     if (status) return status;
@@ -93,6 +99,7 @@ static void say_done(const job_state *state) {
 static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
+    weft_job_on_print(job, on_print, state);
     wf_cmd_catch_signals(job);
     weft_status status = weft_job_run(job, err);
     wf_cmd_ignore_signals(); /* the job is about to be freed, and what is left takes no time */

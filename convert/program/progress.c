@@ -9,18 +9,23 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+/* Frames, with the part of the one that is being made. */
+static double done_of(const weft_progress *p) {
+    return (double)p->frames_done + p->frame_part;
+}
+
 static int percent_of(const weft_progress *p) {
-    return p->frames_total > 0 ? (int)(100 * p->frames_done / p->frames_total) : 100;
+    return p->frames_total > 0 ? (int)(100 * done_of(p) / (double)p->frames_total) : 100;
 }
 
 static double rate_of(const weft_progress *p) {
-    return p->seconds > 0 ? (double)p->frames_done / p->seconds : 0;
+    return p->seconds > 0 ? done_of(p) / p->seconds : 0;
 }
 
 /* Seconds that are left at the pace so far; below 0 as long as there is no pace. */
 static double remaining_s(const weft_progress *p) {
     double rate = rate_of(p);
-    return rate > 0 ? (double)(p->frames_total - p->frames_done) / rate : -1;
+    return rate > 0 ? ((double)p->frames_total - done_of(p)) / rate : -1;
 }
 
 static bool finished(const weft_progress *p) {
@@ -88,10 +93,11 @@ static double thousandths(double value) {
 /* Writes a JSON object a line, at most ten a second. */
 static void show_json(wf_meter *meter, const weft_progress *p) {
     if (meter->shown_s >= 0 && p->seconds - meter->shown_s < 0.1 && !finished(p)) return;
-    json_t *line = json_pack("{s:s, s:I, s:I, s:f, s:f}", "stage", p->stage, "frames_done",
-                             (json_int_t)p->frames_done, "frames_total",
-                             (json_int_t)p->frames_total, "seconds", thousandths(p->seconds),
-                             "frames_per_second", thousandths(rate_of(p)));
+    json_t *line =
+        json_pack("{s:s, s:I, s:I, s:f, s:f, s:f}", "stage", p->stage, "frames_done",
+                  (json_int_t)p->frames_done, "frames_total", (json_int_t)p->frames_total,
+                  "seconds", thousandths(p->seconds), "frames_per_second",
+                  thousandths(rate_of(p)), "frame_part", thousandths(p->frame_part));
     if (line) json_dumpf(line, stderr, JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(12));
     if (line) fputc('\n', stderr);
     json_decref(line);

@@ -54,13 +54,32 @@ typedef struct bands {
     wf_taking taking;
 } bands;
 
+/* A receiver that tells of progress between tiles. */
+typedef struct ticking {
+    wf_crew *crew;
+    const wf_worker *worker;
+    wf_receiver to;
+} ticking;
+
+static void pass_samples(void *user, const wf_samples *samples) {
+    const ticking *t = user;
+    t->to.samples(t->to.user, samples);
+    wf_crew_tick(t->crew, t->worker);
+}
+
+static bool pass_tile(void *user, const wf_sample_tile *tile) {
+    const ticking *t = user;
+    return t->to.tile(t->to.user, tile);
+}
+
 static weft_status gather_band(const bands *b, wf_worker *worker, int first,
                                wf_band_sums *sums) {
     int lines = b->run->job->raster.lines;
     int end = first + WF_GATHER_ROWS < lines ? first + WF_GATHER_ROWS : lines;
     if (!wf_band_sums_new(&b->taking, first, end, sums))
         return wf_fail(&worker->error, WEFT_NO_MEMORY, "no memory for a band of a field");
-    const wf_receiver receiver = wf_band_sums_receiver(sums);
+    ticking t = {&b->run->crew, worker, wf_band_sums_receiver(sums)};
+    const wf_receiver receiver = {&t, pass_samples, t.to.tile ? pass_tile : NULL};
     weft_status status =
         b->run->kind->samples->band(b->run, worker, first, end, &receiver, &worker->error);
     if (!status && !wf_band_sums_end(sums))
@@ -129,9 +148,19 @@ static bool reuse_fields(const wf_run *run, wf_gathering *g) {
     return gathers[0] || gathers[1];
 }
 
+/* Where in its frame the first field in flight stands once it has all units before this one. */
+static void tell_part(wf_run *run, const wf_gathering *g, int64_t unit) {
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    wf_needs needs = run->kind->needs(run, g->flight_first);
+    double units = (double)(needs.end - needs.first), before = (double)(unit - needs.first);
+    double field = (double)(g->flight_first % per_frame);
+    wf_crew_part(&run->crew, (field + before / units) / per_frame, 1 / units / per_frame);
+}
+
 static weft_status add_unit(wf_run *run, int64_t unit, weft_error *err) {
     const wf_sample_reading *samples = run->kind->samples;
     wf_gathering *g = run->sums;
+    tell_part(run, g, unit);
     weft_status status = samples->turn(run, unit, err);
     if (status) return status;
     bool still = g->keeps && samples->still(run);

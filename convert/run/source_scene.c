@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,7 +30,16 @@ static weft_status split_params(const weft_job *job, wf_param *params, char **na
     return WEFT_OK;
 }
 
-static weft_status load(const weft_job *job, const wf_param *params, wf_scene *scene,
+static void print(void *user, const char *line) {
+    const weft_job *job = user;
+    if (job->print) job->print(line, job->print_user);
+}
+
+static void warn(void *user, const char *text) {
+    wf_job_warn(user, "%s", text);
+}
+
+static weft_status load(weft_job *job, const wf_param *params, wf_scene *scene,
                         weft_error *err) {
     const wf_raster *r = &job->raster;
     char why[1000];
@@ -44,12 +54,15 @@ static weft_status load(const weft_job *job, const wf_param *params, wf_scene *s
         .frame_rate = wf_ratio_value(r->frame_rate),
         .field_rate = 1 / wf_ratio_value(wf_raster_field_period(r)),
         .load_image = wf_picture_load,
+        .print = print,
+        .warn = warn,
+        .tell_user = job,
     };
     if (wf_scene_load(job->inputs[0], &options, scene, why, sizeof why)) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED, "%s", why);
 }
 
-static weft_status load_with_params(const weft_job *job, wf_scene *scene, weft_error *err) {
+static weft_status load_with_params(weft_job *job, wf_scene *scene, weft_error *err) {
     size_t count = job->param_count + 1;
     wf_param *params = calloc(count, sizeof *params);
     char **names = calloc(count, sizeof *names);
@@ -115,9 +128,17 @@ static weft_status choose_frames(const weft_job *job, int64_t *first, int64_t *e
 
 weft_status wf_scene_frames(const weft_job *job, const wf_scene *scene, int64_t *first,
                             int64_t *end, weft_error *err) {
+    int64_t frames = frames_of(job, scene);
     *first = 0;
-    *end = frames_of(job, scene);
-    return job->frames ? choose_frames(job, first, end, err) : WEFT_OK;
+    *end = frames;
+    weft_status status = job->frames ? choose_frames(job, first, end, err) : WEFT_OK;
+    if (!status && scene->duration_s > 0 && *end > frames)
+        wf_job_warn(job,
+                    "--frames %s: duration(%g) of %s makes %" PRId64
+                    " frames, the last of which is %" PRId64
+                    "; what moves after that goes on, and keyframes stand",
+                    job->frames, scene->duration_s, job->inputs[0], frames, frames - 1);
+    return status;
 }
 
 static weft_status count(wf_run *run, weft_error *err) {

@@ -26,14 +26,15 @@ struct wf_sink {
 
 static weft_status check_name(const wf_output_options *o, weft_error *err) {
     int64_t files = o->frame_count * wf_output_files(o);
-    if (wf_pattern_is(o->output) || (files >= 0 && files <= 1 && !o->first_frame))
-        return WEFT_OK;
+    if (wf_pattern_is(o->output) || (files >= 0 && files <= 1 && !o->chunked)) return WEFT_OK;
     const char *dot = strrchr(o->output, '.');
     return wf_fail(err, WEFT_USAGE,
-                   "%.500s: there are %" PRId64 " %s, and each is a file; say where its number "
+                   "%.500s: there are %" PRId64
+                   " %s%s, and each is a file; say where its number "
                    "goes, such as %.*s.####%s",
                    o->output, files, o->separate_fields ? "fields" : "frames",
-                   dot ? (int)(dot - o->output) : 0, o->output, dot ? dot : "");
+                   o->chunked ? " in this chunk" : "", dot ? (int)(dot - o->output) : 0,
+                   o->output, dot ? dot : "");
 }
 
 static weft_status name_file(const wf_output_options *o, int64_t number, char path[PATH_MAX],

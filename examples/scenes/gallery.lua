@@ -16,14 +16,14 @@ local function view()
     camera{eye={2.2, 2.4, 4.6}, look_at={0, 0.85, 0}, fov=34}
     light{point={5, 9, 6}, color={1, 0.97, 0.92}}
 end
-local a = box{min={-0.8, 0, -0.8}, max={0.8, 1.6, 0.8}}:material(red)
-local b = sphere{center={0.35, 1.2, 0.35}, radius=0.85}:material(blue)
-local ball = sphere{center={0, 0.8, 0}, radius=0.8}
+local function a() return box{min={-0.8, 0, -0.8}, max={0.8, 1.6, 0.8}}:material(red) end
+local function b() return sphere{center={0.35, 1.2, 0.35}, radius=0.85}:material(blue) end
+local function ball() return sphere{center={0, 0.8, 0}, radius=0.8} end
 local function lit(solid) view() floor() add(solid) end
 local function dim() camera{eye={2.2, 2.4, 4.6}, look_at={0, 0.85, 0}, fov=34} floor() end
 
 local features = {
-    sphere = function() lit(ball:material(clay)) end,
+    sphere = function() lit(ball():material(clay)) end,
     ellipsoid = function()
         lit(ellipsoid{center={0, 0.7, 0}, radii={1.2, 0.7, 0.5}}:material(clay))
     end,
@@ -54,17 +54,17 @@ local features = {
         lit(polyhedron{planes=planes}:translate{0, 0.95, 0}:material(clay))
     end,
 
-    union = function() lit(union(a, b)) end,
-    intersection = function() lit(intersection(a, b)) end,
-    difference = function() lit(difference(a, b)) end,
+    union = function() lit(union(a(), b())) end,
+    intersection = function() lit(intersection(a(), b())) end,
+    difference = function() lit(difference(a(), b())) end,
 
-    translate = function() lit(union(a:scale(0.5), a:scale(0.5):translate{1.2, 0, -0.6})) end,
-    rotate = function() lit(a:rotate{axis={0, 1, 0}, degrees=40}) end,
-    scale = function() lit(a:scale{1.4, 0.6, 0.8}) end,
-    velocity = function() lit(ball:material(red):translate{-0.4, 0, 0}:velocity{30, 0, 0}) end,
-    spin = function() lit(a:scale{1, 0.5, 0.4}:spin{axis={0, 1, 0}, rpm=200}) end,
+    translate = function() lit(union(a():scale(0.5), a():scale(0.5):translate{1.2, 0, -0.6})) end,
+    rotate = function() lit(a():rotate{axis={0, 1, 0}, degrees=40}) end,
+    scale = function() lit(a():scale{1.4, 0.6, 0.8}) end,
+    velocity = function() lit(ball():material(red):translate{-0.4, 0, 0}:velocity{30, 0, 0}) end,
+    spin = function() lit(a():scale{1, 0.5, 0.4}:spin{axis={0, 1, 0}, rpm=200}) end,
     keyframes = function()
-        lit(a:scale{0.5, 1, 0.5}:keyframes{{time=0, translate={-0.9, 0, 0}},
+        lit(a():scale{0.5, 1, 0.5}:keyframes{{time=0, translate={-0.9, 0, 0}},
             {time=0.033, translate={0.9, 0, 0}, axis={0, 0, 1}, degrees=-50}})
     end,
     temporal_width = function()
@@ -75,10 +75,10 @@ local features = {
     end,
 
     checker = function()
-        lit(ball:material{texture=checker{{0.8, 0.75, 0.6}, {0.3, 0.15, 0.1}, size=0.3}})
+        lit(ball():material{texture=checker{{0.8, 0.75, 0.6}, {0.3, 0.15, 0.1}, size=0.3}})
     end,
     stripe = function()
-        lit(ball:material{texture=stripe{{0.85, 0.85, 0.8}, {0.1, 0.2, 0.5}, axis={0.4, 1, 0},
+        lit(ball():material{texture=stripe{{0.85, 0.85, 0.8}, {0.1, 0.2, 0.5}, axis={0.4, 1, 0},
                                          size=0.16}})
     end,
     zoneplate = function()
@@ -89,25 +89,25 @@ local features = {
         lit(box{min={-1.2, 0.05, -0.1}, max={1.2, 1.85, 0}}:material{
             texture=image{file="pictures/scenes/carousel.png", corner={-1.2, 1.85, 0}, width=2.4}})
     end,
-    ambient = function() dim() add(ball:material{color={0.75, 0.16, 0.1}, ambient=0.5}) end,
+    ambient = function() dim() add(ball():material{color={0.75, 0.16, 0.1}, ambient=0.5}) end,
     specular = function()
-        lit(ball:material{color={0.3, 0.1, 0.08}, specular=1, shininess=120})
+        lit(ball():material{color={0.3, 0.1, 0.08}, specular=1, shininess=120})
     end,
     reflect = function()
         view() floor{texture=checker{{0.7, 0.7, 0.65}, {0.25, 0.25, 0.3}, size=0.5}}
-        add(ball:material{color=0.05, reflect=0.8, specular=0.8, shininess=200})
+        add(ball():material{color=0.05, reflect=0.8, specular=0.8, shininess=200})
     end,
     refract = function()
         view() floor{texture=checker{{0.7, 0.7, 0.65}, {0.25, 0.25, 0.3}, size=0.5}}
-        add(ball:material{color={0.95, 1, 0.97}, refract=0.95, index=1.4, diffuse=0, ambient=0,
+        add(ball():material{color={0.95, 1, 0.97}, refract=0.95, index=1.4, diffuse=0, ambient=0,
                           specular=0.8, shininess=200})
     end,
-    unlit = function() view() floor() add(ball:material{color={0.75, 0.16, 0.1}, unlit=true}) end,
+    unlit = function() view() floor() add(ball():material{color={0.75, 0.16, 0.1}, unlit=true}) end,
 
-    point = function() dim() add(ball:material(clay)) light{point={-2, 2.5, 1.5}} end,
-    direction = function() dim() add(ball:material(clay)) light{direction={1, -1, -0.6}} end,
+    point = function() dim() add(ball():material(clay)) light{point={-2, 2.5, 1.5}} end,
+    direction = function() dim() add(ball():material(clay)) light{direction={1, -1, -0.6}} end,
     spot = function()
-        dim() add(ball:material(clay))
+        dim() add(ball():material(clay))
         light{point={2, 5, 2}, look_at={0, 0.4, 0}, inner=16, outer=26}
     end,
     perspective = function()

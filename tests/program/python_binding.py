@@ -229,7 +229,7 @@ class Jobs(unittest.TestCase):
         done = [p.frames_done for p in seen]
         self.assertEqual(done, sorted(done))
         self.assertEqual((seen[-1].frames_done, seen[-1].frames_total), (4, 4))
-        self.assertTrue(all(p.stage and p.seconds >= 0 for p in seen))
+        self.assertTrue(all(p.stage and p.seconds >= 0 and 0 <= p.frame_part <= 1 for p in seen))
 
     def test_warnings(self):
         said = []

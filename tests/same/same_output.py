@@ -41,7 +41,7 @@ def timeless(value):
         return value
     dropped = {"seconds", "peak_memory_bytes"}
     if "stage" in value:  # progress
-        dropped.add("frames_per_second")
+        dropped |= {"frames_per_second", "frame_part"}
     return {k: timeless(v) for k, v in value.items() if k not in dropped}
 
 

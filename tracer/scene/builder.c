@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tracer/scene/advice.h"
 #include "tracer/scene/lua_table.h"
 #include "tracer/scene/motion.h"
 
@@ -34,8 +35,14 @@ int wf_node_new(lua_State *lua, wf_node node, const int *children) {
         int *to = wf_list_grow(lua, &b->children, sizeof *to, (size_t)node.child_count);
         memcpy(to, children, (size_t)node.child_count * sizeof *to);
     }
+    for (int n = 0; n < node.child_count; n++) wf_node_use(b, children[n]);
+    node.place = wf_place_here(lua);
     *(wf_node *)wf_list_grow(lua, &b->nodes, sizeof node, 1) = node;
     return (int)b->nodes.count - 1;
+}
+
+void wf_node_use(wf_builder *b, int index) {
+    ((wf_node *)b->nodes.items)[index].used = true;
 }
 
 const wf_node *wf_node_at(const wf_builder *b, int index) {
@@ -216,6 +223,7 @@ void wf_unfold(lua_State *lua, int node) {
     wf_builder *b = wf_builder_of(lua);
     const context world = {-1, 0, -1, -1, true};
     route r = {0};
+    wf_node_use(b, node);
     size_t first = b->out_steps.count;
     lua_pushnil(lua);
     go_to(lua, &r, node, &world);

@@ -1,9 +1,9 @@
 /* Makes the functions and methods of the scene language known to a script. */
 #include "tracer/scene/language.h"
 
-#include "filters/base/spelling.h"
 #include "tracer/scene/lua_node.h"
 #include "tracer/scene/lua_table.h"
+#include "tracer/scene/guess.h"
 
 static const luaL_Reg *const methods[] = {wf_lua_motions, wf_lua_looks};
 
@@ -12,14 +12,13 @@ static const luaL_Reg *const methods[] = {wf_lua_motions, wf_lua_looks};
 /* What a solid is asked for that it does not have. */
 static int no_method(lua_State *lua) {
     const char *name = lua_tostring(lua, 2);
-    wf_spelling spelling = {.text = name ? name : ""};
+    wf_guess guess = wf_guess_of(name ? name : "");
     for (size_t list = 0; list < METHODS; list++)
         for (const luaL_Reg *method = methods[list]; method->name; method++)
-            wf_spelling_offer(&spelling, method->name);
-    if (spelling.best)
-        return wf_scene_error(lua, "solid", "there is no '%.60s'; did you mean %s?",
-                              spelling.text, spelling.best);
-    return wf_scene_error(lua, "solid", "there is no '%.60s'", spelling.text);
+            wf_guess_offer(&guess, method->name);
+    const char *found = wf_guess_found(&guess);
+    return wf_scene_error(lua, "solid", "there is no '%.60s'%s%s%s", name ? name : "",
+                          found ? "; did you mean " : "", found ? found : "", found ? "?" : "");
 }
 
 /* Scripts cannot reach metatables, and thus not change what methods do. */

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "filters/base/spelling.h"
+#include "tracer/scene/advice.h"
 #include "tracer/scene/builder.h"
 #include "tracer/scene/language.h"
+#include "tracer/scene/lua_globals.h"
 #include "tracer/scene/script.h"
 
 /* ---- Files ---- */
@@ -31,33 +32,29 @@ static char *folder_of(const char *path) {
 
 /* ---- What the script is given ---- */
 
-static void push_value(lua_State *lua, const char *text) {
-    if (!lua_stringtonumber(lua, text)) lua_pushstring(lua, text);
+/* How much a script may print, in bytes. */
+#define MOST_PRINTED 65536
+
+/* Prints within bounds: what follows is dropped, and that is said. */
+static void print(void *user, const char *line, size_t bytes) {
+    wf_builder *b = user;
+    const wf_load_options *o = b->options;
+    char text[1024];
+    size_t size = bytes < sizeof text - 1 ? bytes : sizeof text - 1;
+    if (!o->print || b->printed_bytes > MOST_PRINTED) return;
+    for (size_t n = 0; n < size; n++)
+        text[n] =
+            (unsigned char)line[n] < ' ' && line[n] != '\t' && line[n] != '\n' ? '?' : line[n];
+    text[size] = '\0';
+    o->print(o->tell_user, text);
+    b->printed_bytes += size + 16;
+    if (b->printed_bytes > MOST_PRINTED)
+        wf_scene_warn(b->sandbox.lua, "print", "that is enough; nothing more is printed");
 }
 
 static int open_scene(lua_State *lua) {
-    const wf_load_options *o = wf_builder_of(lua)->options;
-    const struct {
-        const char *name;
-        double value;
-    } raster[] = {{"width", o->width_px},
-                  {"lines", o->lines},
-                  {"pixel_aspect", o->pixel_aspect},
-                  {"frame_rate", o->frame_rate},
-                  {"field_rate", o->field_rate}};
     wf_open_language(lua);
-    lua_newtable(lua);
-    for (size_t i = 0; i < sizeof raster / sizeof *raster; i++) {
-        lua_pushnumber(lua, raster[i].value);
-        lua_setfield(lua, -2, raster[i].name);
-    }
-    lua_setglobal(lua, "raster");
-    lua_newtable(lua);
-    for (size_t i = 0; i < o->param_count; i++) {
-        push_value(lua, o->params[i].value);
-        lua_setfield(lua, -2, o->params[i].name);
-    }
-    lua_setglobal(lua, "param");
+    wf_lua_open_globals(lua);
     return 0;
 }
 
@@ -83,6 +80,7 @@ static int finish(lua_State *lua) {
         return luaL_error(lua, "the scene has no camera; "
                                "camera{eye={0, 1, -5}, look_at={0, 0, 0}} makes one");
     finish_ops(lua, b);
+    wf_advise(lua);
     return 0;
 }
 
@@ -100,26 +98,31 @@ static void take_arrays(wf_builder *b) {
 }
 
 static void free_lists(wf_builder *b) {
-    wf_list *const lists[] = {&b->nodes, &b->children, &b->solids,
-                              &b->ops,   &b->widths,   &b->light_nodes};
+    wf_list *const lists[] = {&b->nodes,  &b->children,    &b->solids, &b->ops,
+                              &b->widths, &b->light_nodes, &b->files};
     for (size_t n = 0; n < sizeof lists / sizeof *lists; n++) free(lists[n]->items);
 }
 
 /* ---- Messages ---- */
 
-/* "attempt to call a nil value (global 'spere')" is what a typing error looks like. */
+/* Looks for the name after `kind` in a message such as "attempt to call a nil value (global
+ * 'spere')", which is what a typing error looks like. */
+static bool named(const char *message, const char *kind, char name[64]) {
+    const char *at = strstr(message, kind);
+    return at && strstr(message, "a nil value") &&
+           sscanf(at + strlen(kind), "%63[^']", name) == 1;
+}
+
 static void add_hint(lua_State *lua, const char *message, char *why, size_t why_size) {
-    const char *at = strstr(message, "(global '");
+    const char *meant = NULL;
     size_t used = strlen(why);
     char name[64];
-    if (!at || sscanf(at, "(global '%63[^']", name) != 1) return;
-    wf_spelling spelling = {.text = name};
-    lua_pushglobaltable(lua);
-    for (lua_pushnil(lua); lua_next(lua, -2); lua_pop(lua, 1))
-        if (lua_type(lua, -2) == LUA_TSTRING)
-            wf_spelling_offer(&spelling, lua_tostring(lua, -2));
-    if (spelling.best && used < why_size)
-        snprintf(why + used, why_size - used, "; did you mean %s?", spelling.best);
+    if (named(message, "(global '", name))
+        meant = wf_lua_meant_global(lua, name);
+    else if (named(message, "(field '", name) || named(message, "(method '", name))
+        meant = wf_lua_meant_field(lua, name);
+    if (meant && used < why_size)
+        snprintf(why + used, why_size - used, "; did you mean %s?", meant);
     lua_settop(lua, 0);
 }
 
@@ -182,6 +185,7 @@ bool wf_scene_load_text(const char *text, size_t size, const char *path,
     bool good = b.folder && first_material(&b) &&
                 wf_sandbox_open(&b.sandbox, options->steps, options->memory_bytes);
     b.sandbox.user = &b;
+    b.sandbox.print = print;
     if (good) {
         good = run(&b, text, size, path);
         if (!good) explain(&b, path, why, why_size);

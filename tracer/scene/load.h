@@ -22,6 +22,11 @@ typedef struct wf_load_options {
     double width_px, lines, pixel_aspect, frame_rate, field_rate;
     wf_image_load_fn *load_image; /* NULL: there are no pictures */
     void *image_user;
+    /* Get lines that the script prints, without control codes, and warnings of what is likely a
+     * mistake, with file and line; NULL: nobody listens. */
+    void (*print)(void *user, const char *line);
+    void (*warn)(void *user, const char *text);
+    void *tell_user;
 } wf_load_options;
 
 /* Runs a scene file (text, Lua 5.4) and makes the scene that it describes; free it with

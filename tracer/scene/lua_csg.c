@@ -1,4 +1,5 @@
 /* Set operations on solids as functions and operators of a script. */
+#include "tracer/scene/advice.h"
 #include "tracer/scene/language.h"
 #include "tracer/scene/lua_node.h"
 #include "tracer/scene/lua_table.h"
@@ -11,6 +12,7 @@ static int combine(lua_State *lua, wf_step_kind step, const char *what) {
     if (!count) wf_scene_error(lua, what, "it takes solids, and there are none");
     wf_sandbox_charge(lua, count);
     wf_node node = {.kind = WF_NODE_CSG,
+                    .place = wf_place_here(lua),
                     .step = (uint8_t)step,
                     .first_child = (int)b->children.count,
                     .child_count = count};
@@ -18,6 +20,7 @@ static int combine(lua_State *lua, wf_step_kind step, const char *what) {
         if (list) lua_rawgeti(lua, 1, k);
         int child = wf_check_solid(lua, list ? 2 : k, k, what);
         if (list) lua_pop(lua, 1);
+        wf_node_use(b, child);
         *(int *)wf_list_grow(lua, &b->children, sizeof(int), 1) = child;
     }
     *(wf_node *)wf_list_grow(lua, &b->nodes, sizeof node, 1) = node;

@@ -1,4 +1,5 @@
 /* Materials and temporal widths as methods of a script's solids. */
+#include "tracer/scene/advice.h"
 #include "tracer/scene/language.h"
 #include "tracer/scene/lua_node.h"
 #include "tracer/scene/lua_table.h"
@@ -6,7 +7,7 @@
 static int call_temporal_width(lua_State *lua) {
     wf_builder *b = wf_builder_of(lua);
     wf_check_node(lua, 1, "temporal_width");
-    lua_settop(lua, 2);
+    wf_only_value(lua, "temporal_width", 2);
     double width = wf_read_number(lua, "temporal_width", "its value");
     if (width < 0 || width > 64)
         wf_scene_error(lua, "temporal_width", "it is from 0 to 64 field periods, not %g",
@@ -56,6 +57,7 @@ static int call_material(lua_State *lua) {
                 "texture must be checker{..}, stripe{..}, zoneplate{..} or image{..}");
         m.texture = *texture;
     }
+    wf_advise_color(lua, "material", m.color, !m.unlit);
     *(wf_material *)wf_list_grow(lua, &b->materials, sizeof m, 1) = m;
     return wf_wrap_node(lua, WF_NODE_MATERIAL, (int)b->materials.count - 1, "material");
 }

@@ -16,7 +16,7 @@ static int wrap_op(lua_State *lua, const wf_op *op, const char *what) {
 
 static wf_vec only_vector(lua_State *lua, const char *what) {
     wf_check_node(lua, 1, what);
-    lua_settop(lua, 2);
+    wf_only_value(lua, what, 2);
     return wf_read_vector(lua, what, "its value");
 }
 
@@ -35,7 +35,7 @@ static int call_velocity(lua_State *lua) {
 static int call_scale(lua_State *lua) {
     wf_vec s;
     wf_check_node(lua, 1, "scale");
-    lua_settop(lua, 2);
+    wf_only_value(lua, "scale", 2);
     if (lua_istable(lua, 2) && lua_rawlen(lua, 2) == 1) lua_rawgeti(lua, 2, 1);
     if (lua_type(lua, -1) == LUA_TNUMBER) {
         double even = wf_read_number(lua, "scale", "its value");
@@ -104,7 +104,7 @@ static int call_matrix(lua_State *lua) {
     wf_op op = {.kind = WF_OP_PLACE};
     double v[12];
     wf_check_node(lua, 1, "matrix");
-    lua_settop(lua, 2);
+    wf_only_value(lua, "matrix", 2);
     if (!lua_istable(lua, 2) || lua_rawlen(lua, 2) != 12)
         wf_scene_error(lua, "matrix",
                        "it takes twelve numbers, three rows of four, the fourth of "
@@ -139,7 +139,7 @@ static wf_key read_key(lua_State *lua) {
 static int call_keyframes(lua_State *lua) {
     wf_builder *b = wf_builder_of(lua);
     wf_check_node(lua, 1, "keyframes");
-    lua_settop(lua, 2);
+    wf_only_value(lua, "keyframes", 2);
     if (!lua_istable(lua, 2) || !lua_rawlen(lua, 2))
         wf_scene_error(lua, "keyframes",
                        "it takes a list of {time=, translate=, axis=, degrees=}");

@@ -10,6 +10,8 @@ void wf_push_node(lua_State *lua, int node) {
 
 int wf_check_node(lua_State *lua, int arg, const char *what) {
     const int *node = luaL_testudata(lua, arg, WF_LUA_NODE);
+    if (!node && arg == 1 && lua_gettop(lua) == 1 && lua_istable(lua, 1))
+        wf_scene_error(lua, what, "write s:%s{..} with a colon, not a dot", what);
     if (!node)
         wf_scene_error(lua, what, "value %d must be a solid, not %s", arg,
                        luaL_typename(lua, arg));

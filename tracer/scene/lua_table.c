@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "filters/base/spelling.h"
+#include "tracer/scene/guess.h"
 #include "tracer/scene/vec.h"
 
 /* Where the script is, whichever function of ours or of the library has been called. */
@@ -180,18 +180,18 @@ static read_fn *const read[] = {
 
 static void unknown(lua_State *lua, const char *what, const wf_lua_key *keys,
                     const char *name) {
-    wf_spelling spelling = {.text = name};
+    wf_guess guess = wf_guess_of(name);
     char list[256] = "";
     size_t used = 0;
     for (const wf_lua_key *key = keys; key->name; key++) {
-        wf_spelling_offer(&spelling, key->name);
+        wf_guess_offer(&guess, key->name);
         if (used < sizeof list - 1)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "",
                                      key->name);
     }
-    if (spelling.best)
-        wf_scene_error(lua, what, "there is no key '%.60s'; did you mean %s?", name,
-                       spelling.best);
+    const char *found = wf_guess_found(&guess);
+    if (found)
+        wf_scene_error(lua, what, "there is no key '%.60s'; did you mean %s?", name, found);
     wf_scene_error(lua, what, "there is no key '%.60s'; it takes %s", name,
                    *list ? list : "no keys");
 }
@@ -224,8 +224,19 @@ bool wf_has_key(lua_State *lua, int index, const char *name) {
     return there;
 }
 
+void wf_only_value(lua_State *lua, const char *what, int last) {
+    int first = last > 1 ? 2 : 1, given = lua_gettop(lua) - first + 1;
+    if (given == 3 && lua_isnumber(lua, first) && lua_isnumber(lua, first + 2))
+        wf_scene_error(lua, what, "write %s{%g, %g, %g}, with braces", what,
+                       lua_tonumber(lua, first), lua_tonumber(lua, first + 1),
+                       lua_tonumber(lua, first + 2));
+    if (given > 1) wf_scene_error(lua, what, "it takes one value, not %d", given);
+    lua_settop(lua, last);
+}
+
 void wf_read_keys(lua_State *lua, int index, const char *what, const wf_lua_key *keys,
                   int positions, void *out) {
+    if (index > 0) wf_only_value(lua, what, index);
     index = lua_absindex(lua, index);
     if (lua_type(lua, index) != LUA_TTABLE) {
         lua_pushvalue(lua, index);

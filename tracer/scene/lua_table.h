@@ -38,6 +38,10 @@ typedef struct wf_lua_key {
 void wf_read_keys(lua_State *lua, int index, const char *what, const wf_lua_key *keys,
                   int positions, void *out);
 
+/* Raises an error if the function, or the method whose solid is argument 1, was called with
+ * more than one value, as background(0, 0, 1) is. last: where that value is. */
+void wf_only_value(lua_State *lua, const char *what, int last);
+
 /* Whether the table at index has a value for a key. */
 bool wf_has_key(lua_State *lua, int index, const char *name);
 

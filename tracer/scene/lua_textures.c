@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tracer/scene/advice.h"
 #include "tracer/scene/builder.h"
 #include "tracer/scene/language.h"
 #include "tracer/scene/lua_table.h"
@@ -25,6 +26,7 @@ static void read_colors(lua_State *lua, const char *what, wf_texture *t) {
         lua_insert(lua, -2);
         lua_setfield(lua, -2, "color");
         wf_read_keys(lua, -1, what, only, 0, t->color[k]);
+        wf_advise_color(lua, what, t->color[k], false);
         lua_pop(lua, 1);
     }
 }

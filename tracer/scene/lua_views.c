@@ -1,6 +1,7 @@
 /* The camera and the lights as functions of a script. */
 #include <math.h>
 
+#include "tracer/scene/advice.h"
 #include "tracer/scene/language.h"
 #include "tracer/scene/lua_node.h"
 #include "tracer/scene/lua_table.h"
@@ -103,6 +104,7 @@ static int call_light(lua_State *lua) {
                       .op = -1,
                       .shadows = f.shadows};
     aim_light(lua, &f, &light);
+    wf_advise_color(lua, "light", f.color, false);
     *(wf_light *)wf_list_grow(lua, &b->lights, sizeof light, 1) = light;
     int node = wf_node_new(
         lua, (wf_node){.kind = WF_NODE_LIGHT, .index = (int)b->lights.count - 1}, NULL);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tracer/scene/advice.h"
 #include "tracer/scene/language.h"
 #include "tracer/scene/lua_node.h"
 #include "tracer/scene/lua_table.h"
@@ -26,7 +27,7 @@ static int call_add(lua_State *lua) {
 }
 
 static int call_duration(lua_State *lua) {
-    lua_settop(lua, 1);
+    wf_only_value(lua, "duration", 1);
     double seconds = wf_read_number(lua, "duration", "its value");
     if (!(seconds > 0) || seconds > 1e9)
         wf_scene_error(lua, "duration", "it is in seconds, > 0, not %g", seconds);
@@ -36,11 +37,12 @@ static int call_duration(lua_State *lua) {
 
 static int call_background(lua_State *lua) {
     static const wf_lua_key only[] = {{"color", WF_KEY_COLOR, 0, true}, {0}};
-    lua_settop(lua, 1);
+    wf_only_value(lua, "background", 1);
     lua_newtable(lua);
     lua_insert(lua, 1);
     lua_setfield(lua, 1, "color");
     wf_read_keys(lua, 1, "background", only, 0, wf_builder_of(lua)->scene->background);
+    wf_advise_color(lua, "background", wf_builder_of(lua)->scene->background, false);
     return 0;
 }
 
@@ -53,7 +55,7 @@ static int call_color_space(lua_State *lua) {
 }
 
 static int call_depth(lua_State *lua) {
-    lua_settop(lua, 1);
+    wf_only_value(lua, "depth", 1);
     double depth = wf_read_number(lua, "depth", "its value");
     if (depth < 0 || depth > 32 || depth != floor(depth))
         wf_scene_error(lua, "depth",

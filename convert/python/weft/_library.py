@@ -21,7 +21,7 @@ class Error(ctypes.Structure):
 
 class ProgressStruct(ctypes.Structure):
     _fields_ = [("frames_done", c_int64), ("frames_total", c_int64), ("seconds", c_double),
-                ("stage", c_char_p)]
+                ("stage", c_char_p), ("frame_part", c_double)]
 
 
 class Samples(ctypes.Structure):
@@ -60,6 +60,7 @@ STRUCTURES = {"weft_error": Error, "weft_progress": ProgressStruct, "weft_sample
 
 PROGRESS_FN = CFUNCTYPE(None, POINTER(ProgressStruct), c_void_p)
 WARNING_FN = CFUNCTYPE(None, c_char_p, c_void_p)
+PRINT_FN = CFUNCTYPE(None, c_char_p, c_void_p)
 FIELD_FN = CFUNCTYPE(None, POINTER(FieldStruct), c_void_p)
 
 _STATUS, _HANDLE, _ERROR = c_int, c_void_p, POINTER(Error)
@@ -74,6 +75,7 @@ FUNCTIONS = {
     "weft_job_load": (_STATUS, _HANDLE, c_char_p, _ERROR),
     "weft_job_on_progress": (None, _HANDLE, PROGRESS_FN, c_void_p),
     "weft_job_on_warning": (None, _HANDLE, WARNING_FN, c_void_p),
+    "weft_job_on_print": (None, _HANDLE, PRINT_FN, c_void_p),
     "weft_job_run": (_STATUS, _HANDLE, _ERROR),
     "weft_job_cancel": (None, _HANDLE),
     "weft_job_report": (c_char_p, _HANDLE),

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import warnings
 import weakref
 from collections.abc import Callable, Mapping
@@ -11,7 +12,7 @@ from fractions import Fraction
 from typing import Any, Optional, Union
 
 from ._interrupt import CancelOnInterrupt
-from ._library import PROGRESS_FN, WARNING_FN, lib
+from ._library import PRINT_FN, PROGRESS_FN, WARNING_FN, lib
 from .errors import DEGRADED, Canceled, NoMemory, UsageError, WeftWarning, call
 from .tables import Option, Raster, options, raster
 
@@ -26,6 +27,7 @@ class Progress:
     frames_total: int
     seconds: float  #: since the run began
     stage: str  #: what the job does
+    frame_part: float = 0.0  #: of the frame that is being made, 0 to 1
 
 
 class Calls:
@@ -78,9 +80,9 @@ class Job:
     from_="ACEScg", overwrite=True, background=(0, 0, 0)). `weft.options()` lists them. A mapping
     stands for an option that is given once for each entry: set={"rpm": 75}.
 
-    progress(Progress) is called between frames, warning(str) for messages that do not stop the job;
+    progress(Progress) is called between frames and within long ones, warning(str) for messages that do not stop the job;
     without it they are warnings of the category WeftWarning. What either raises ends the run and
-    comes out of `run`.
+    comes out of `run`. What a scene prints goes to sys.stderr.
 
     A Job is freed with its last reference, or at the end of a `with` statement.
     """
@@ -113,7 +115,8 @@ class Job:
     def _listen(self, handle, calls, progress, warning) -> None:
         def tell_progress(pointer, _user):
             p = pointer.contents
-            told = Progress(p.frames_done, p.frames_total, p.seconds, (p.stage or b"").decode())
+            told = Progress(p.frames_done, p.frames_total, p.seconds, (p.stage or b"").decode(),
+                            p.frame_part)
             calls.guard(progress, told)
             if calls.raised is not None:
                 lib.weft_job_cancel(handle)
@@ -124,11 +127,16 @@ class Job:
             if calls.raised is not None:
                 lib.weft_job_cancel(handle)
 
+        def tell_print(line, _user):
+            calls.guard(lambda text: print(text, file=sys.stderr), line.decode("utf-8", "replace"))
+
         # Kept for as long as libweft may call them.
-        self._functions = (PROGRESS_FN(tell_progress), WARNING_FN(tell_warning))
+        self._functions = (PROGRESS_FN(tell_progress), WARNING_FN(tell_warning),
+                           PRINT_FN(tell_print))
         if progress is not None:
             lib.weft_job_on_progress(handle, self._functions[0], None)
         lib.weft_job_on_warning(handle, self._functions[1], None)
+        lib.weft_job_on_print(handle, self._functions[2], None)
 
     # ---- What it is to do ----
 
