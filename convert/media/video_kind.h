@@ -60,6 +60,7 @@ typedef struct wf_video_frame {
     int64_t index; /* from 0 */
     bool timed;    /* it says when it is shown: */
     int64_t ticks; /* from any zero, of info.tick_s */
+    int64_t lasts; /* ticks; 0: it does not say */
 } wf_video_frame;
 
 typedef struct wf_video wf_video;

@@ -254,6 +254,10 @@ int64_t wf_video_ticks(const wf_video *video) {
     return video->frame.timed ? video->frame.ticks : INT64_MIN;
 }
 
+int64_t wf_video_lasts(const wf_video *video) {
+    return video->frame.lasts;
+}
+
 void wf_video_close(wf_video *video) {
     if (!video) return;
     video->kind->close(video);

@@ -28,8 +28,9 @@ weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool 
 weft_status wf_video_seek(wf_video *video, int64_t picture, int64_t *next, weft_error *err);
 
 /* When the picture last given is shown, in ticks of info.tick_s from any zero; INT64_MIN: it
- * does not say. */
+ * does not say. How long it is shown; 0: it does not say. */
 int64_t wf_video_ticks(const wf_video *video);
+int64_t wf_video_lasts(const wf_video *video);
 
 /* How large plane p is. */
 void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines);

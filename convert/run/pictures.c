@@ -54,7 +54,7 @@ static void choose_pace(wf_run *run, wf_pictures *p, const wf_picture_desc *desc
     int64_t overlap = overlap_of(p->resampler, desc->end_field);
     run->pace = (wf_pace){
         .fields_together = together < fewest ? fewest : together,
-        .fields_carried = (size_t)overlap <= carried ? (int)overlap : 0,
+        .fields_carried = (size_t)overlap <= carried && !desc->unforeseen ? (int)overlap : 0,
         .units_together = desc->open_together,
     };
     /* A chunk that starts inside an overlap must add in the same order as a whole run. */

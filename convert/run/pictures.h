@@ -13,6 +13,7 @@ typedef struct wf_picture_desc {
     const wf_source_options *options;
     int open_together; /* pictures that may be open at once */
     int64_t end_field; /* of all that the pictures give, whatever the chunk */
+    bool unforeseen;   /* which pictures later fields see is not known yet: none is carried */
 } wf_picture_desc;
 
 /* How a source's pictures are read. */

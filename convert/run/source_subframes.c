@@ -344,7 +344,7 @@ static int open_together(const wf_image_info *info) {
 static wf_picture_desc describe(const wf_run *run) {
     const subframes *s = run->source;
     return (wf_picture_desc){s->resampler, &s->options, open_together(&s->first.info),
-                             s->end_field};
+                             s->end_field, false};
 }
 
 static int64_t opens(const wf_run *run, const wf_units *units, bool *needed) {

@@ -10,6 +10,7 @@
 #include "convert/run/time/picture_rate.h"
 #include "convert/run/pictures.h"
 #include "convert/run/time/timecode_start.h"
+#include "convert/video/arrivals.h"
 #include "convert/video/light.h"
 #include "convert/video/rate.h"
 #include "convert/video/window.h"
@@ -32,6 +33,7 @@ typedef struct video_source {
     wf_rational stated;           /* units a second, before film is slowed or sped */
     bool keeps_rate;              /* timestamps are held against the rate */
     int64_t first_ticks;          /* of a pipe: when picture 0 is shown */
+    wf_arrivals *arrivals;        /* of a pipe that has timestamps, whose end is not known */
     wf_rational *times_s;         /* [count + 1], where pictures last unequally long */
     wf_rational *edges;           /* of these times; NULL: pictures have a rate */
     wf_timing_desc timing;
@@ -49,6 +51,7 @@ static void close_input(wf_run *run) {
     wf_resampler_free(s->resampler);
     wf_video_window_free(s->window);
     wf_light_free(s->light);
+    wf_arrivals_free(s->arrivals);
     free(s->times_s);
     free(s->edges);
     free(s);
@@ -263,6 +266,18 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
     return desc;
 }
 
+/* Only libav's pipes have timestamps. */
+static weft_status await_times(const wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    const wf_arrivals_desc desc = {.path = s->path,
+                                   .rate = s->stated,
+                                   .tick_s = s->info.tick_s,
+                                   .period_s = wf_raster_field_period(&run->job->raster),
+                                   .center = run->job->subframe_time_center};
+    if (s->count >= 0 || !s->keeps_rate || !wf_ratio_given(desc.tick_s)) return WEFT_OK;
+    return wf_arrivals_new(&desc, &s->arrivals, err);
+}
+
 static weft_status too_few(const wf_run *run, int64_t count, weft_error *err) {
     const video_source *s = run->source;
     return wf_fail(err, WEFT_FAILED,
@@ -275,6 +290,7 @@ static weft_status too_few(const wf_run *run, int64_t count, weft_error *err) {
 static int64_t frames_of(const video_source *s, int64_t pictures) {
     wf_timing_desc desc = s->timing;
     desc.subframes = pictures;
+    if (desc.edges && s->arrivals) desc.shown = wf_arrivals_shown(s->arrivals, pictures);
     return pictures < 1 ? 0 : wf_timing_frames(&desc);
 }
 
@@ -283,6 +299,7 @@ static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err)
     int64_t frames = ENDLESS_FRAMES;
     char why[512];
     weft_status status = make_edges(run, err);
+    if (!status) status = await_times(run, err);
     if (status) return status;
     const wf_resample_desc desc = describe_fields(run, rate);
     if (s->count >= 0) frames = frames_of(s, s->count);
@@ -332,10 +349,49 @@ static weft_status ends_early(const video_source *s, int64_t unit, weft_error *e
                    s->path, held, at_s, s->picture + (s->count - 1) * s->step + 1);
 }
 
+/* Times that have come are those of windows from here on. */
+static weft_status take_edges(video_source *s, weft_error *err) {
+    int64_t pictures = wf_arrivals_count(s->arrivals);
+    s->timing.edges = wf_arrivals_edges(s->arrivals, &s->timing.edges_from);
+    if (wf_resampler_set_edges(s->resampler, s->timing.edges, s->timing.edges_from, pictures))
+        return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: the times of its pictures, the temporal width and the scan skew are too "
+        "fine to be counted exactly together; give them with fewer digits",
+        s->path);
+}
+
+static weft_status tell_uneven(const wf_run *run, weft_error *err) {
+    wf_rational film = {0, 0};
+    wf_take(&run->report->taken, "rate", "irregular", "file");
+    return run->job->raster.pulldown ? wf_settle_film(run->job, "pictures", &film, err)
+                                     : WEFT_OK;
+}
+
+/* When the picture that was decoded last is shown, of a pipe whose end is not known. */
+static weft_status note_time(const wf_run *run, weft_error *err) {
+    video_source *s = run->source;
+    int64_t ticks = wf_video_window_ticks(s->window), lasts = wf_video_window_lasts(s->window);
+    bool was = wf_arrivals_uneven(s->arrivals);
+    if (wf_video_window_end(s->window) >= 0) return WEFT_OK;
+    if (ticks == INT64_MIN)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: picture %" PRId64 " does not say when it is shown; give "
+                       "--subframe-rate to take all pictures as equally long",
+                       s->path, wf_arrivals_count(s->arrivals));
+    weft_status status = wf_arrivals_add(s->arrivals, ticks, lasts, err);
+    bool uneven = wf_arrivals_uneven(s->arrivals);
+    if (!status && uneven && !was) status = tell_uneven(run, err);
+    return status || !uneven ? status : take_edges(s, err);
+}
+
 /* The timestamps of a file have been listed before; those of a pipe come with its pictures. */
-static weft_status check_step(video_source *s, weft_error *err) {
+static weft_status check_step(const wf_run *run, weft_error *err) {
+    video_source *s = run->source;
     int64_t ticks = wf_video_window_ticks(s->window),
             picture = wf_video_window_next(s->window) - 1;
+    if (s->arrivals) return note_time(run, err);
     if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0)
         return WEFT_OK;
     if (!picture) s->first_ticks = ticks;
@@ -360,7 +416,8 @@ static weft_status jump_to(video_source *s, int64_t number, weft_error *err) {
 }
 
 /* Decodes up to and with a unit, and keeps it; those before it are kept from `keep` on. */
-static weft_status decode_to(video_source *s, int64_t unit, int64_t keep, weft_error *err) {
+static weft_status decode_to(const wf_run *run, int64_t unit, int64_t keep, weft_error *err) {
+    video_source *s = run->source;
     int64_t number = s->picture + unit * s->step;
     weft_status status = WEFT_OK;
     while (!status && wf_video_window_next(s->window) <= number &&
@@ -369,7 +426,7 @@ static weft_status decode_to(video_source *s, int64_t unit, int64_t keep, weft_e
         bool selected = next >= 0 && next % s->step == 0;
         bool kept = selected && (next / s->step >= keep || next / s->step == unit);
         status = wf_video_window_advance(s->window, kept, err);
-        if (!status) status = check_step(s, err);
+        if (!status) status = check_step(run, err);
     }
     return status;
 }
@@ -380,11 +437,18 @@ static int64_t units_read(const video_source *s) {
     return past <= 0 ? 0 : (past + s->step - 1) / s->step;
 }
 
+static weft_status end_times(video_source *s, weft_error *err) {
+    if (!s->arrivals || !units_read(s)) return WEFT_OK;
+    weft_status status = wf_arrivals_end(s->arrivals, err);
+    return status || !wf_arrivals_uneven(s->arrivals) ? status : take_edges(s, err);
+}
+
 static weft_status meet_end(wf_run *run, weft_error *err) {
     video_source *s = run->source;
-    int64_t frames = frames_of(s, units_read(s));
-    s->count = units_read(s);
-    s->timing.subframes = s->count;
+    weft_status status = end_times(s, err);
+    if (status) return status;
+    s->timing.subframes = s->count = units_read(s);
+    int64_t frames = frames_of(s, s->count);
     if (frames < 1) return too_few(run, s->count, err);
     wf_resampler_set_end(s->resampler, s->count);
     if (frames < run->setup.end_frame && !run->setup.endless)
@@ -396,19 +460,36 @@ static weft_status meet_end(wf_run *run, weft_error *err) {
     return WEFT_OK;
 }
 
+/* The first unit that a field or a later one sees, as far as is known: the one that was read
+ * last may be shown for long. */
+static int64_t first_seen(const wf_run *run, int64_t field) {
+    const video_source *s = run->source;
+    int64_t first = needs(run, field).first, last = units_read(s) - 1;
+    return s->arrivals && s->count < 0 && first > last ? last : first;
+}
+
+/* Forgets the units that neither fields from this one on see nor later ones. */
+static void forget_before(video_source *s, int64_t unit) {
+    wf_video_window_forget(s->window, s->picture + unit * s->step);
+    if (s->arrivals && unit > 0) wf_arrivals_forget(s->arrivals, unit - 1);
+}
+
 /* Of a pipe it reads all that these fields see, and so much that they are known to be part of a
- * frame that is there. */
+ * frame that is there; and one more where that tells how long the last is shown. */
 static weft_status ready(wf_run *run, int64_t field, weft_error *err) {
     video_source *s = run->source;
     int per_frame = wf_raster_fields_per_frame(&run->job->raster);
     int64_t frames = (field + per_frame - 1) / per_frame;
     weft_status status = WEFT_OK;
     while (!status && s->count < 0) {
-        int64_t read = units_read(s);
-        if (read >= needs(run, field - 1).end && frames_of(s, read) >= frames) return WEFT_OK;
-        status = decode_to(s, read, 0, err);
+        int64_t read = units_read(s), sure = s->arrivals ? read - 1 : read;
+        if (sure >= needs(run, field - 1).end && frames_of(s, sure) >= frames) break;
+        int64_t keep = first_seen(run, run->setup.first_frame * per_frame);
+        wf_video_window_forget(s->window, keep);
+        status = decode_to(run, read, keep, err);
         if (!status && wf_video_window_end(s->window) >= 0) return meet_end(run, err);
     }
+    if (s->arrivals) wf_arrivals_decide(s->arrivals);
     return status;
 }
 
@@ -422,14 +503,14 @@ static weft_status check_end(const video_source *s, weft_error *err) {
  * not carried, and where frames are left out, what follows may see some of them again. */
 static weft_status prepare(const wf_run *run, const wf_units *units, weft_error *err) {
     video_source *s = run->source;
-    int64_t later = needs(run, units->group_end).first, first = units->unit[0];
+    int64_t later = first_seen(run, units->group_end), first = units->unit[0];
     bool again = !run->pace.fields_carried || run->job->resume;
     int64_t keep = again ? later : INT64_MAX;
-    int64_t needed = s->picture + (first < keep ? first : keep) * s->step;
-    wf_video_window_forget(s->window, needed);
-    weft_status status = jump_to(s, needed, err);
+    int64_t needed = first < keep ? first : keep;
+    forget_before(s, needed);
+    weft_status status = jump_to(s, s->picture + needed * s->step, err);
     for (int i = 0; !status && i < units->count; i++) {
-        status = decode_to(s, units->unit[i], keep, err);
+        status = decode_to(run, units->unit[i], keep, err);
         bool met = wf_video_window_end(s->window) >= 0;
         if (!status && met && units_read(s) <= units->unit[i])
             status = ends_early(s, units->unit[i], err);
@@ -479,7 +560,8 @@ static wf_picture_desc describe(const wf_run *run) {
     video_source *s = run->source;
     int64_t looked_at = s->end_field < FIELDS_LOOKED_AT ? s->end_field : FIELDS_LOOKED_AT;
     s->maker = (wf_row_maker){wf_light_scratch(s->light), WF_LIGHT_ROWS, make_rows, free};
-    return (wf_picture_desc){s->resampler, &s->options, open_together(s), looked_at};
+    return (wf_picture_desc){s->resampler, &s->options, open_together(s), looked_at,
+                             s->arrivals != NULL};
 }
 
 static void tell(const wf_run *run, wf_report *report) {

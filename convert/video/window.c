@@ -63,6 +63,10 @@ int64_t wf_video_window_ticks(const wf_video_window *w) {
     return wf_video_ticks(w->video);
 }
 
+int64_t wf_video_window_lasts(const wf_video_window *w) {
+    return wf_video_lasts(w->video);
+}
+
 void wf_video_window_forget(wf_video_window *w, int64_t number) {
     for (size_t i = 0; i < w->slots; i++)
         if (w->slot[i].number < number) w->slot[i].number = -1;

@@ -20,8 +20,9 @@ size_t wf_video_window_picture_bytes(const wf_video_window *window);
 int64_t wf_video_window_next(const wf_video_window *window);
 int64_t wf_video_window_end(const wf_video_window *window);
 
-/* wf_video_ticks of the picture that was decoded last. */
+/* wf_video_ticks and wf_video_lasts of the picture that was decoded last. */
 int64_t wf_video_window_ticks(const wf_video_window *window);
+int64_t wf_video_window_lasts(const wf_video_window *window);
 
 /* Forgets the pictures before `number`. */
 void wf_video_window_forget(wf_video_window *window, int64_t number);

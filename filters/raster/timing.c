@@ -46,13 +46,17 @@ static int order(const wf_timing *t, wf_rational edge, wf_ticks instant) {
     return (left > right) - (left < right);
 }
 
+static wf_rational edge_at(const wf_timing *t, int64_t k) {
+    return t->edges[k - t->edges_from];
+}
+
 /* How many edges, of subframes + 1, lie before an instant; with `at` those too that lie at it.
  */
 static int64_t edges_before(const wf_timing *t, wf_ticks instant, bool at) {
-    int64_t low = 0, high = t->subframes + 1;
+    int64_t low = t->edges_from, high = t->subframes + 1;
     while (low < high) {
         int64_t middle = low + (high - low) / 2;
-        if (order(t, t->edges[middle], instant) < (at ? 1 : 0))
+        if (order(t, edge_at(t, middle), instant) < (at ? 1 : 0))
             low = middle + 1;
         else
             high = middle;
@@ -61,9 +65,9 @@ static int64_t edges_before(const wf_timing *t, wf_ticks instant, bool at) {
 }
 
 /* A field is at most the 2^27th, and 127 bits hold what edges and instants are compared by. */
-static bool edges_are_coarse(const wf_timing_desc *desc, wf_ticks tick_rate) {
-    for (int64_t k = 0; k <= desc->subframes; k++)
-        if (tick_rate > ((wf_ticks)1 << 98) / desc->edges[k].den) return false;
+static bool edges_are_coarse(const wf_rational *edges, int64_t count, wf_ticks tick_rate) {
+    for (int64_t k = 0; k < count; k++)
+        if (tick_rate > ((wf_ticks)1 << 98) / edges[k].den) return false;
     return true;
 }
 
@@ -136,13 +140,14 @@ static int64_t frames_in(const wf_raster *raster, wf_rational periods) {
 
 static bool set_edges(wf_timing *timing, const wf_timing_desc *desc, wf_ticks rate, char *why,
                       size_t why_size) {
-    if (!edges_are_coarse(desc, rate))
+    if (!edges_are_coarse(desc->edges, desc->subframes - desc->edges_from + 1, rate))
         return complain(
             why, why_size,
             "the pictures' times, the temporal width and the scan skew are too fine "
             "to be counted exactly together; give them with fewer digits");
     set_windows(timing, desc, rate);
     timing->edges = desc->edges;
+    timing->edges_from = desc->edges_from;
     timing->least_frames = frames_in(desc->raster, desc->shown);
     return true;
 }
@@ -167,6 +172,16 @@ bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, si
     timing->least_frames =
         wf_ratio_given(frames) ? wf_ratio_floor_mul(frames, desc->subframes) : 0;
     return true;
+}
+
+bool wf_timing_set_edges(wf_timing *t, const wf_rational *edges, int64_t from,
+                         int64_t subframes) {
+    const wf_ticks finest = (wf_ticks)1 << 94; /* for WF_EDGE_UNKNOWN, far beyond others */
+    t->edges = edges;
+    t->edges_from = from;
+    t->subframes = subframes;
+    return t->tick_rate <= finest &&
+           edges_are_coarse(edges, subframes - from + 1, t->tick_rate);
 }
 
 /* ---- Windows ---- */
@@ -224,8 +239,8 @@ void wf_timing_cell(const wf_timing *t, int64_t field, int line, int64_t k, doub
                     double *q1) {
     wf_ticks start = window_start(t, field, line);
     if (t->edges) {
-        *q0 = from_center(t, t->edges[k], start);
-        *q1 = from_center(t, t->edges[k + 1], start);
+        *q0 = from_center(t, edge_at(t, k), start);
+        *q1 = from_center(t, edge_at(t, k + 1), start);
         return;
     }
     wf_ticks cell = t->cell_zero + k * t->cell, center = start + t->width / 2;
@@ -239,7 +254,7 @@ void wf_timing_cell(const wf_timing *t, int64_t field, int line, int64_t k, doub
 
 /* < 0, 0, > 0 where the last cell ends before, at or after an instant. */
 static int end_order(const wf_timing *t, wf_ticks instant) {
-    if (t->edges) return order(t, t->edges[t->subframes], instant);
+    if (t->edges) return order(t, edge_at(t, t->subframes), instant);
     wf_ticks end = t->cell_zero + t->subframes * t->cell;
     return (end > instant) - (end < instant);
 }

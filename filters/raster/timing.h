@@ -25,6 +25,7 @@ typedef struct wf_timing_desc {
     /* Where cells have lengths of their own, instead of the rate: wf_timing_edges's, borrowed,
      * and how long the sequence is shown, in field periods. NULL: a constant rate. */
     const wf_rational *edges;
+    int64_t edges_from; /* the number of edges[0]: those before it are forgotten */
     wf_rational shown;
     wf_rational width; /* tau, field periods; under pulldown film frames */
     wf_position position;
@@ -38,8 +39,9 @@ typedef struct wf_timing {
     wf_ticks cell;            /* a subframe's cell; 0: there are edges */
     wf_ticks cell_zero;       /* where cell 0 begins */
     const wf_rational *edges; /* the description's */
-    wf_ticks width, opens;    /* the window, and where it opens from the field's instant */
-    wf_ticks skew_line;       /* delay of one frame line */
+    int64_t edges_from;
+    wf_ticks width, opens; /* the window, and where it opens from the field's instant */
+    wf_ticks skew_line;    /* delay of one frame line */
     int64_t subframes;
     int64_t least_frames;    /* of the time that the sequence is shown */
     const wf_raster *raster; /* the description's: which fields share an instant */
@@ -63,6 +65,14 @@ bool wf_timing_edges(const wf_raster *raster, const wf_rational *times_s, int64_
 
 /* False with a reason if the ratios are too fine to share a tick. */
 bool wf_timing_init(wf_timing *timing, const wf_timing_desc *desc, char *why, size_t why_size);
+
+/* Edges of cells that are found out one by one: those of numbers from <= k < subframes,
+ * borrowed until the next call, and one more, WF_EDGE_UNKNOWN or where the last cell ends. What
+ * windows before edge `subframes - 1` meet is then as it would be with all of them. False where
+ * an edge is too fine to be counted. */
+#define WF_EDGE_UNKNOWN ((wf_rational){INT64_C(1) << 31, 1})
+bool wf_timing_set_edges(wf_timing *timing, const wf_rational *edges, int64_t from,
+                         int64_t subframes);
 
 /* Frames that the sequence gives: those that fit into the time it is shown, but at least its
  * leading whole frames. A frame is whole if its first field's instant lies before the end of

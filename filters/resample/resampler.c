@@ -99,6 +99,12 @@ void wf_resampler_set_end(wf_resampler *rs, int64_t subframes) {
     rs->timing.subframes = rs->desc.timing.subframes = subframes;
 }
 
+bool wf_resampler_set_edges(wf_resampler *rs, const wf_rational *edges, int64_t from,
+                            int64_t subframes) {
+    rs->desc.timing.subframes = subframes;
+    return wf_timing_set_edges(&rs->timing, edges, from, subframes);
+}
+
 int wf_resampler_bands(const wf_resampler *rs) {
     return rs->band_count;
 }

@@ -36,6 +36,11 @@ void wf_resampler_free(wf_resampler *resampler);
  * reaches beyond them is made. */
 void wf_resampler_set_end(wf_resampler *resampler, int64_t subframes);
 
+/* The same, and when they are shown, as wf_timing_set_edges has it: before a field whose window
+ * reaches beyond the last but one of these edges is made. */
+bool wf_resampler_set_edges(wf_resampler *resampler, const wf_rational *edges, int64_t from,
+                            int64_t subframes);
+
 /* Subframes that some line of field n needs. */
 wf_window wf_resampler_window(const wf_resampler *resampler, int64_t field);
 

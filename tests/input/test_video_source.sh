@@ -3,38 +3,7 @@
 . "$WEFT_SOURCE/tests/program/script.sh"
 not_sanitized "test_jobs.sh converts"
 
-# y4m FILE HEADER COUNT CODES: COUNT pictures in Y4M of 10 bits 4:4:4, each of one gray of a list
-# of codes that is gone through again and again.
-y4m()
-{
-    python3 - "$@" <<'P'
-import sys
-name, header, count, codes = sys.argv[1], sys.argv[2], int(sys.argv[3]), [int(c) for c in sys.argv[4:]]
-words = dict((w[0], w[1:]) for w in header.split())
-pixels = int(words["W"]) * int(words["H"])
-with open(name, "wb") as f:
-    f.write(b"YUV4MPEG2 %s\n" % header.encode())
-    for k in range(count):
-        f.write(b"FRAME\n" + codes[k % len(codes)].to_bytes(2, "little") * pixels +
-                (512).to_bytes(2, "little") * (2 * pixels))
-P
-}
-
-# first_code FILE CODE FRAMES: the first luma of all frames of 64x32 4:2:2 of 10 bits is CODE.
-first_code()
-{
-    python3 - "$@" <<'P'
-import sys
-data, code, frames = open(sys.argv[1], "rb").read(), int(sys.argv[2]), int(sys.argv[3])
-size = 64 * 32 * 4 + 6
-data = data[data.index(b"\n") + 1:]
-got = [int.from_bytes(data[at + 6 + 2000:at + 6 + 2002], "little") for at in range(0, len(data), size)]
-if len(got) != frames or any(abs(g - code) > 1 for g in got): sys.exit("codes %r, not %d times %d" % (got, frames, code))
-P
-}
-
-box="--raster 64x32@25i --aperture box --temporal-width 1 --bits 10 --dither none -q --overwrite"
-y4m turns.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 100 64 940
+. "$WEFT_SOURCE/tests/input/gray_video.sh"
 
 # ---- Light before the aperture ----
 
@@ -131,22 +100,6 @@ if has_libav && has ffmpeg; then
     check "are one" cmp m.y4m y.y4m
     check "it replaces itself" exits 2 weft convert turns.mkv --raster 64x32@25i --overwrite -o turns.mkv
     check "which is said" says "would replace an input"
-    # White for 6 ms and black for 14 is .3 of the light of each field: 64 + 876 * .3^(1 / 2.4).
-    y4m white.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 100 940 64
-    for file in uneven.mkv uneven.mp4; do
-        quiet_ffmpeg -i white.y4m -vf "settb=1/1000,setpts=floor(N/2)*20+mod(N\,2)*6" -fps_mode passthrough \
-            -enc_time_base 1:1000 -c:v ${codec:-ffv1} ${codec:+-qp 0 -video_track_timescale 1000} $file
-        codec=libx264
-        check "times of $file" exits 0 weft convert $file $box -o u.y4m --report -
-        check "weigh its pictures" first_code u.y4m 594 24
-        check "and are told" value "d['input']['rate'] == {'value': 'irregular', 'reason': 'file'}"
-    done
-    check "some of them" exits 0 weft convert uneven.mkv $box --frames 10-59 -o u.y4m
-    check "weigh the same" first_code u.y4m 594 12
-    check "a rate in their place" exits 0 weft convert uneven.mkv $box --subframe-rate 100 -o u.y4m
-    check "makes pictures equal" first_code u.y4m 720 25
-    check "uneven times of a pipe" fails "out of step" weft convert <(cat uneven.mkv) $box -o no.y4m
-    check "and when" says "0.006 s"
     check "a pipe of a container that is cut off" fails "before what it says is its end" \
         weft convert <(head -c 3000 turns.mkv) $box -o no.y4m
     head -c $(($(stat -c %s turns.mkv) / 2)) turns.mkv >cut.mkv

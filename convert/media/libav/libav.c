@@ -408,6 +408,7 @@ static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
     if (!status && !(v->take_codes && !v->code[0])) take_frame(v);
     v->frame.timed = r->frame->best_effort_timestamp != AV_NOPTS_VALUE;
     v->frame.ticks = r->frame->best_effort_timestamp;
+    v->frame.lasts = r->frame->pkt_duration > 0 ? r->frame->pkt_duration : 0;
     av_frame_unref(r->frame);
     r->have = false;
     return status;

@@ -261,6 +261,55 @@ static void overlaps_of_irregular_cells(void **state) {
     }
 }
 
+/* Edges that are found out one by one, and forgotten, leave windows as they are with all. */
+static void edges_as_they_come(void **state) {
+    (void)state;
+    wf_raster raster = raster_of("1080i50");
+    const wf_rational widths[] = {{1, 1}, {0, 1}, {3, 10}, {2, 1}};
+    for (int trial = 0; trial < 160; trial++) {
+        wf_rational times[PICTURES + 1], edges[PICTURES + 1];
+        double t_s[PICTURES + 1];
+        char why[256];
+        random_times(1000, times, t_s);
+        assert_true(
+            wf_timing_edges(&raster, times, PICTURES, trial % 2, edges, why, sizeof why));
+        wf_timing_desc desc = {.raster = &raster,
+                               .subframes = PICTURES,
+                               .edges = edges,
+                               .shown = wf_ratio(1, 1),
+                               .width = widths[below(4)],
+                               .position = (wf_position)below(3),
+                               .skew = wf_ratio(0, 1)};
+        wf_timing all = timing_of(&desc);
+        int64_t known = 1, forgotten = 0;
+        desc.subframes = 1;
+        for (int64_t n = 0; n < 20; n++) {
+            wf_window window = wf_timing_window(&all, n, 0), found = {0, 0, false};
+            if (window.first + window.count >= PICTURES) break;
+            wf_timing some = timing_of(&desc);
+            wf_rational held[PICTURES + 2];
+            for (known = known < 1 ? 1 : known;; known++) {
+                for (int64_t k = forgotten; k < known; k++) held[k - forgotten] = edges[k];
+                held[known - forgotten] = WF_EDGE_UNKNOWN;
+                assert_true(wf_timing_set_edges(&some, held, forgotten, known));
+                found = wf_timing_window(&some, n, 0);
+                if (found.first + found.count < known) break;
+                assert_true(known < PICTURES);
+            }
+            assert_int_equal(found.first, window.first);
+            assert_int_equal(found.count, window.count);
+            assert_int_equal(found.alone, window.alone);
+            for (int64_t k = found.first; k < found.first + found.count && !found.alone; k++) {
+                double p0, p1, q0, q1;
+                wf_timing_cell(&all, n, 0, k, &p0, &p1);
+                wf_timing_cell(&some, n, 0, k, &q0, &q1);
+                assert_true(p0 == q0 && p1 == q1);
+            }
+            forgotten = found.first;
+        }
+    }
+}
+
 /* Times that happen to be even give what a rate gives, to the last bit. */
 static void even_times_are_a_rate(void **state) {
     (void)state;
@@ -329,6 +378,7 @@ int main(void) {
         cmocka_unit_test(windows_beyond_the_sequence_take_the_nearest),
         cmocka_unit_test(frames_of_a_sequence),
         cmocka_unit_test(overlaps_of_irregular_cells),
+        cmocka_unit_test(edges_as_they_come),
         cmocka_unit_test(even_times_are_a_rate),
         cmocka_unit_test(times_that_will_not_do),
         cmocka_unit_test(ratios_too_fine_are_refused),

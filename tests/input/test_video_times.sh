@@ -1,0 +1,59 @@
+#!/bin/bash
+# Video whose pictures last unequally long, from files and from pipes.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_jobs.sh converts"
+needs_libav
+needs ffmpeg python3
+. "$WEFT_SOURCE/tests/input/gray_video.sh"
+
+# White for 6 ms and black for 14 is .3 of the light of each field: 64 + 876 * .3^(1 / 2.4).
+y4m white.y4m "W64 H32 F100:1 Ip A1:1 C444p10" 100 940 64
+for file in uneven.mkv uneven.mp4; do
+    quiet_ffmpeg -i white.y4m -vf "settb=1/1000,setpts=floor(N/2)*20+mod(N\,2)*6" -fps_mode passthrough \
+        -enc_time_base 1:1000 -c:v ${codec:-ffv1} ${codec:+-qp 0 -video_track_timescale 1000} $file
+    codec=libx264
+    check "times of $file" exits 0 weft convert $file $box -o u.y4m --report -
+    check "weigh its pictures" first_code u.y4m 594 24
+    check "and are told" value "d['input']['rate'] == {'value': 'irregular', 'reason': 'file'}"
+done
+check "some of them" exits 0 weft convert uneven.mkv $box --frames 10-59 -o u.y4m
+check "weigh the same" first_code u.y4m 594 12
+check "a rate in their place" exits 0 weft convert uneven.mkv $box --subframe-rate 100 -o u.y4m
+check "makes pictures equal" first_code u.y4m 720 25
+weft convert uneven.mkv $box -o u.y4m
+check "uneven times of a pipe" exits 0 weft convert <(cat uneven.mkv) $box -o p.y4m --report -
+check "are those of a file" cmp u.y4m p.y4m
+check "and are told" value "d['input']['rate'] == {'value': 'irregular', 'reason': 'file'}"
+check "with named pictures" fails "out of step" weft convert <(cat uneven.mkv) $box --frames 10-59 -o no.y4m
+check "they must be even, and when" says "0.006 s"
+# Even for a second, then a pause of .3 s, and twice as fast; windows that overlap and that are instants.
+quiet_ffmpeg -i turns.y4m -vf "settb=1/90000,setpts=N*900+gte(N\,50)*27000-gte(N\,50)*(N-50)*450" -fps_mode passthrough \
+    -enc_time_base 1:90000 -c:v libx264 -bf 2 -qp 0 late.ts
+for how in "--aperture box --temporal-width 1" "--aperture line --temporal-width 0" "--aperture rotated" \
+    "--aperture box --temporal-width 1 --subframe-time center"; do
+    check "a pause" exits 0 weft convert late.ts $box $how -o u.y4m
+    check "by a pipe" exits 0 weft convert <(cat late.ts) $box $how -o p.y4m
+    check "is the same ($how)" cmp u.y4m p.y4m
+done
+check "frames of it" exits 0 weft convert late.ts $box --output-frames 10-20 -o u.y4m
+check "by a pipe" exits 0 weft convert <(cat late.ts) $box --output-frames 10-20 -o p.y4m
+check "are the same" cmp u.y4m p.y4m
+quiet_ffmpeg -r 24 -i turns.y4m -vf "settb=1/90000,setpts=N*3750+gte(N\,50)*27000" -fps_mode passthrough \
+    -enc_time_base 1:90000 -c:v libx264 -qp 0 film.ts
+check "film" refuses "irregular" convert --from rec709 <(cat film.ts) $box --raster 64x32@30000/1001i --cadence 2:3 -o no.y4m
+
+# ---- Times that will not do ----
+
+# stamped FILE EXPRESSION: timestamps, in ms, of FFV1 in Matroska by a number N, patched into packets as they are.
+stamped() { quiet_ffmpeg -i turns.y4m -c:v ffv1 -bsf:v "setts=ts=$2:time_base=1/1000" -time_base 1/1000 "$1"; }
+stamped twice.mkv "N*10+if(gte(N\,50)\,-10)"
+check "a time that repeats" fails "both shown at 0.490 s" weft convert twice.mkv $box -o no.y4m
+check "by a pipe" fails "picture 50 is shown at 0.490 s" weft convert <(cat twice.mkv) $box -o no.y4m
+stamped back.mkv "if(gte(N\,50)\,N*10-300\,N*10)"
+check "times that run backwards" exits 1 weft convert back.mkv $box -o no.y4m
+check "by a pipe" fails "picture 50 is shown at 0." weft convert <(cat back.mkv) $box -o no.y4m
+check "a rate in their place" exits 0 weft convert <(cat back.mkv) $box --subframe-rate 100 -o p.y4m
+check "makes pictures equal" first_code p.y4m 720 25
+check "nothing is left" [ ! -e no.y4m ]
+
+finish
