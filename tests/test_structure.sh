@@ -88,8 +88,9 @@ convert/media/structure : convert/base convert/media
 convert/read/choice :
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice
 convert/video       : filters/* color/* convert/base convert/job convert/media convert/read
+convert/sound       : filters/* convert/base convert/job convert/media convert/read
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
-convert/finish      : filters/* color/* convert/base convert/job convert/read convert/write
+convert/finish      : filters/* color/* convert/base convert/job convert/read convert/sound convert/write
 convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read

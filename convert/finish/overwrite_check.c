@@ -1,10 +1,12 @@
 /* Whether an output is one of the inputs. */
 #include "convert/finish/overwrite_check.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include "convert/base/pattern.h"
+#include "convert/job/audio.h"
 
 /* What makes two names one file. */
 typedef struct identity {
@@ -25,11 +27,20 @@ static int by_identity(const void *left, const void *right) {
     return (a->inode > b->inode) - (a->inode < b->inode);
 }
 
+static bool identify_sound(const weft_job *job, identity *out) {
+    wf_audio audio;
+    char path[4096];
+    if (!wf_audio_parse(job->audio, &audio) || audio.kind != WF_AUDIO_FILE) return false;
+    snprintf(path, sizeof path, "%.*s", (int)audio.path_length, job->audio);
+    return identify(path, out);
+}
+
 static size_t identify_inputs(const weft_job *job, const wf_sequence *sequence,
                               identity *inputs) {
     size_t count = 0;
     for (size_t i = 0; i < job->input_count; i++)
         if (identify(job->inputs[i], &inputs[count])) count++;
+    if (identify_sound(job, &inputs[count])) count++;
     for (size_t k = 0; k < sequence->count; k++)
         if (sequence->refs[k].path && identify(sequence->refs[k].path, &inputs[count])) count++;
     qsort(inputs, count, sizeof *inputs, by_identity);
@@ -59,7 +70,7 @@ static weft_status check_outputs(const weft_job *job, const wf_setup *s, const i
 
 weft_status wf_refuse_own_inputs(const weft_job *job, const wf_setup *s, weft_error *err) {
     if (!job->overwrite) return WEFT_OK;
-    identity *inputs = malloc((s->sequence.count + job->input_count + 1) * sizeof *inputs);
+    identity *inputs = malloc((s->sequence.count + job->input_count + 2) * sizeof *inputs);
     if (!inputs) return wf_fail(err, WEFT_NO_MEMORY, "no memory to list the inputs");
     size_t count = identify_inputs(job, &s->sequence, inputs);
     weft_status status = count ? check_outputs(job, s, inputs, count, err) : WEFT_OK;

@@ -6,7 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "convert/job/audio.h"
 #include "convert/job/colors.h"
+#include "convert/sound/sound.h"
 
 /* ---- Output ---- */
 
@@ -40,7 +42,8 @@ static weft_status check_codes(const weft_job *job, const wf_output_kind *kind, 
 
 static weft_status check_files(const weft_job *job, const wf_output_kind *kind,
                                weft_error *err) {
-    if (job->silent_tracks && !kind->container)
+    wf_audio audio;
+    if (wf_audio_parse(job->audio, &audio) && audio.kind != WF_AUDIO_NONE && !kind->container)
         return wf_fail(err, WEFT_USAGE,
                        "%s: %s has no sound; --audio is for .mov, .mxf and .mkv", job->output,
                        kind->name);
@@ -84,7 +87,7 @@ static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full)
         .timecode = job->timecode ? job->timecode : "00:00:00:00",
         .color_space = s->color_space,
         .codec = job->codec,
-        .silent_tracks = job->silent_tracks,
+        .sound = s->sound ? wf_sound_feed_of(s->sound) : (wf_sound_feed){0},
         .threads = job->threads,
         .overwrite = job->overwrite,
         .resume = job->resume,
@@ -188,6 +191,7 @@ void wf_setup_free(wf_setup *s) {
     wf_sequence_free(&s->sequence);
     if (s->transform.free) s->transform.free(s->transform.self);
     if (s->decode.free) s->decode.free(s->decode.self);
+    wf_sound_close(s->sound);
     free(s->display);
     *s = (wf_setup){0};
 }

@@ -21,6 +21,10 @@ typedef struct wf_setup {
     const wf_chromaticities *scene_primaries; /* and its primaries, where they have no name */
     bool decodes; /* the source decodes what --from encodes, before it is summed */
 
+    struct wf_sound *sound; /* NULL: there is none */
+    wf_rational sound_s; /* when frame 0 begins, on the clock of the input's sound; {0, 0}: 0 */
+    bool retimed;        /* the source shows pictures at another speed than that sound has */
+
     wf_output output;
     wf_output_options output_options;
     char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
@@ -40,6 +44,14 @@ weft_status wf_setup_output(const weft_job *job, wf_setup *setup, weft_error *er
 
 /* The same for video, whose colors are those of the raster already and are not transformed. */
 weft_status wf_setup_video(const weft_job *job, wf_setup *setup, weft_error *err);
+
+/* Opens the sound that --audio asks for, so that the output can be told of its tracks, before
+ * wf_setup_output; has it begin with first_frame, when that and sound_s are known; and warns of
+ * what was left out or added, after the last frame. (setup_sound.c) */
+weft_status wf_setup_sound(const weft_job *job, wf_setup *setup, wf_taken_list *taken,
+                           weft_error *err);
+weft_status wf_setup_begin_sound(const wf_setup *setup, weft_error *err);
+void wf_setup_tell_sound(const wf_setup *setup);
 
 /* Settles the frames first <= n < end that the whole run makes: those of the job's chunk go to
  * first_frame and end_frame, and the sink is told of them. */

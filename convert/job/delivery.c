@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "convert/job/audio.h"
 #include "filters/base/spelling.h"
 
 /* ---- Rasters of the codecs ---- */
@@ -90,7 +91,7 @@ static const wf_delivery_form dv_forms[] = {
              .default_bits = bits,                                                             \
              .fixed_422 = true,                                                                \
              .container = true},                                                               \
-    .muxer = "mxf", .full_range = true
+    .muxer = "mxf", .sound_bytes = BITS(2) | BITS(3), .full_range = true
 #define FORMS(list) .forms = (list), .form_count = COUNT(list)
 
 #define V210   .encoder = "v210", FORMS(any_raster)
@@ -115,9 +116,9 @@ static const wf_delivery_form dv_forms[] = {
 #define AVCI                                                                                   \
     .encoder = "libx264", .encoder_options = "avcintra-class=100", FORMS(avci_forms),          \
     .threads = 1
-#define MOV .muxer = "mov", .audio = "pcm_s24le"
-#define MXF .muxer = "mxf", .audio = "pcm_s24le"
-#define MKV .muxer = "matroska", .audio = "pcm_s24le"
+#define MOV .muxer = "mov", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
+#define MXF .muxer = "mxf", .sound_bytes = BITS(2) | BITS(3)
+#define MKV .muxer = "matroska", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
 
 static const wf_delivery rows[] = {
     {KIND("v210", "mov", "uncompressed, 10 bits", BITS(10), 10, true), MOV, V210},
@@ -138,7 +139,7 @@ static const wf_delivery rows[] = {
     {KIND("xdcamhd422", "mxf", "MPEG-2 4:2:2 of 50 Mb/s", BITS(8), 8, true), MXF, XDCAM},
     {KIND("dnxhd", "mxf", "DNxHD", BITS(8) | BITS(10), 10, true), MXF, DNXHD},
     {KIND("imx50", "mxf", "MPEG-2 D-10 of 50 Mb/s", BITS(8), 8, true), .muxer = "mxf_d10",
-     .audio = "pcm_s24le", .one_audio_stream = true, IMX},
+     .sound_bytes = BITS(2) | BITS(3), .one_audio_stream = true, IMX},
     {KIND("dvcpro50", "mxf", "DV of 50 Mb/s", BITS(8), 8, true), MXF, DVCPRO},
     {KIND("avci100", "mxf", "AVC-Intra 100", BITS(10), 10, true), MXF, AVCI},
     {RAW_MXF("v210", "uncompressed, 10 bits", 10), FORMS(any_raster)},
@@ -325,6 +326,28 @@ wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *rast
     r.line1 += top_is_first ? top : other;
     r.line2 += top_is_first ? other : top;
     return r;
+}
+
+/* ---- Sound ---- */
+
+weft_status wf_delivery_check_sound(const wf_delivery *d, const wf_output_options *o,
+                                    weft_error *err) {
+    const wf_sound_feed *sound = &o->sound;
+    bool grouped = d->one_audio_stream;
+    bool groups = grouped && (sound->tracks % 4 || sound->tracks > 8);
+    if (sound->tracks > WF_SOUND_TRACKS || groups)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "%.500s: %s takes %s tracks of sound, not %d; --audio-tracks says how many "
+            "are written",
+            o->output, d->kind.name, grouped ? "4 or 8" : "up to 16", sound->tracks);
+    if (!sound->tracks || d->sound_bytes & BITS(sound->bits / 8)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%.500s: .%s takes --audio-bits 16 or 24, not %d",
+                   o->output, d->kind.endings, sound->bits);
+}
+
+int wf_delivery_sound_tracks(const wf_delivery *d, int channels) {
+    return d->one_audio_stream && channels % 4 ? channels + 4 - channels % 4 : channels;
 }
 
 /* ---- QuickTime's names ---- */

@@ -40,7 +40,7 @@ typedef struct wf_delivery {
     const wf_delivery_form *forms; /* the first that fits is taken */
     size_t form_count;
     int pictures_a_group;  /* of pictures, at 25 frames a second; 0: every one is whole */
-    const char *audio;     /* how silence is stored: the encoder's name */
+    unsigned sound_bytes;  /* 1u << bytes for each size of a sample that it takes */
     bool one_audio_stream; /* of all channels, 4 or 8 of them */
     bool constant;         /* bit rate */
     int threads;           /* where another number makes other bytes; 0: any */
@@ -60,6 +60,14 @@ const wf_delivery *wf_delivery_for(const char *output, const char *codec, bool *
  * takes. */
 const wf_delivery_form *wf_delivery_form_for(const wf_delivery *delivery,
                                              const wf_output_options *options, weft_error *err);
+
+/* Whether it takes so much sound, of so many bits; an error that says what it takes. */
+weft_status wf_delivery_check_sound(const wf_delivery *delivery,
+                                    const wf_output_options *options, weft_error *err);
+
+/* How many tracks a sound of so many channels is given where nobody says: one each, and in
+ * groups of four where the delivery has those. */
+int wf_delivery_sound_tracks(const wf_delivery *delivery, int channels);
 
 /* The raster as it is in the file: lines cut off and added, line map and order that follow. */
 wf_raster wf_delivery_raster(const wf_delivery_form *form, const wf_raster *raster);

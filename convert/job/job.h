@@ -59,7 +59,9 @@ struct weft_job {
     bool separate_fields; /* of image sequences: a file each */
     char *timecode;       /* of frame 0; NULL: the input's, or 00:00:00:00 */
     char *codec;          /* NULL: the container's default */
-    int silent_tracks;    /* of sound, in containers */
+    char *audio;          /* wf_audio_parse takes it; NULL: no sound */
+    int64_t audio_tracks; /* 0: as many as the sound has channels */
+    int audio_bits;       /* of a sample */
     wf_on_missing on_missing;
     wf_nan_fix nan_fix;
     int chunk, chunk_count; /* 1-based */

@@ -7,6 +7,7 @@
 
 #include "convert/base/range.h"
 #include "convert/base/values.h"
+#include "convert/job/audio.h"
 #include "convert/job/delivery.h"
 #include "filters/base/spelling.h"
 
@@ -253,13 +254,24 @@ weft_status wf_set_output_frames(weft_job *job, const wf_option_row *row, const 
 
 weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {
-    char rest;
-    int tracks = 0;
-    bool none = !strcmp(value, "none");
-    if (!none && (sscanf(value, "silent:%2d%c", &tracks, &rest) != 1 || tracks < 1))
-        return refuse(row, value, "one of none|silent:N, with N tracks from 1 to 16", err);
-    job->silent_tracks = tracks;
-    return WEFT_OK;
+    static const char *const words[] = {"none", "copy", "silent:2", "tone:2"};
+    wf_spelling spelling = {.text = value};
+    wf_audio audio;
+    bool known = wf_audio_parse(value, &audio);
+    if (known && audio.kind != WF_AUDIO_NONE) return wf_set_text(job, row, value, err);
+    if (known) {
+        free(job->audio);
+        job->audio = NULL;
+        return WEFT_OK;
+    }
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        wf_spelling_offer(&spelling, words[i]);
+    char right[200];
+    snprintf(right, sizeof right,
+             "one of %s, with N tracks from 1 to %d%s%s; files have an ending, such as .wav",
+             row->shown.takes, WF_SOUND_TRACKS, spelling.best ? "; did you mean " : "",
+             spelling.best ? spelling.best : "");
+    return refuse(row, value, right, err);
 }
 
 weft_status wf_set_codec(weft_job *job, const wf_option_row *row, const char *value,

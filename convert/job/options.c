@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "convert/job/audio.h"
 #include "convert/job/option_rows.h"
 #include "filters/base/spelling.h"
 
@@ -165,8 +166,18 @@ static const wf_option_row rows[] = {
         "What .mov, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, ffv1 and others; a "
         "wrong name lists them.",
         set_codec, TEXT(codec)),
-    ROW(files, VIDEO, "audio", "none|silent:N", "none",
-        "Silent tracks of sound in .mov, .mxf and .mkv: 24 bits, 48 kHz.", set_audio, INITIAL),
+    ROW(files, VIDEO, "audio", "none|copy|FILE[:OFFSET]|silent:N|tone:N", "none",
+        "Sound in .mov, .mxf and .mkv, at 48 kHz: the input video's, that of a file (from so "
+        "many "
+        "seconds on), N tracks of silence or of 1 kHz at -18 dBFS.",
+        set_audio, TEXT(audio), INITIAL),
+    ROW(files, VIDEO, "audio-tracks", "N", "one a channel",
+        "How many tracks of sound are written: channels beyond them are left out, tracks "
+        "beyond "
+        "the channels are silent.",
+        set_whole, AT(audio_tracks), FROM(1, WF_SOUND_TRACKS, ", whole")),
+    ROW(files, VIDEO, "audio-bits", "16|24|32", "24",
+        "Bits of a sample of sound; 32 in .mov and .mkv.", set_bits, AT(audio_bits), INITIAL),
     ROW(files, VIDEO, "fields", "woven|separate", "woven",
         "Image sequences: both fields in one file, or each in a file of half the height, two "
         "numbers a frame in order of time.",

@@ -26,6 +26,17 @@ typedef struct wf_output_kind {
     bool container;  /* holds sound beside the picture */
 } wf_output_kind;
 
+/* Sound beside the picture, as a sink takes it: frame after frame from its first on, so many
+ * samples of each as wf_sound_samples says. */
+typedef struct wf_sound_feed {
+    int tracks; /* 0: there is no sound */
+    int bits;   /* of a sample as it is written */
+    /* Fills to[count][tracks] with the next samples at WF_SOUND_RATE: 32 bits of which the
+     * lower 32 - bits are 0. NULL: it is silent. */
+    weft_status (*read)(void *self, int32_t *to, int64_t count, weft_error *err);
+    void *self; /* borrowed */
+} wf_sound_feed;
+
 /* What an output is given for the whole run. Strings are borrowed. */
 typedef struct wf_output_options {
     const char *output; /* as the user wrote it */
@@ -43,9 +54,9 @@ typedef struct wf_output_options {
     const char *color_space;            /* what the codes are in, for metadata; "" if unknown */
     const wf_chromaticities *primaries; /* of light; NULL: what color_space tells of them */
     wf_rational subframe_rate;          /* "frames" are subframes; {0, 0}: they are frames */
-    const char *codec; /* containers: what is coded; NULL: the container's default */
-    int silent_tracks; /* containers: of sound */
-    int threads;       /* that an encoder may use; 0: all */
+    const char *codec;   /* containers: what is coded; NULL: the container's default */
+    wf_sound_feed sound; /* containers */
+    int threads;         /* that an encoder may use; 0: all */
     bool overwrite, resume;
 } wf_output_options;
 

@@ -106,8 +106,10 @@ static weft_status settle(wf_run *run, weft_error *err) {
     run->kind = wf_source_for(run->job);
     if (!wf_output_for(run->job->output, run->job->codec, err).kind) return WEFT_USAGE;
     weft_status status = run->kind->open(run, err);
+    if (!status) status = wf_setup_sound(run->job, &run->setup, &run->report->taken, err);
     if (!status) status = wf_setup_output(run->job, &run->setup, err);
     if (!status) status = run->kind->count(run, err);
+    if (!status) status = wf_setup_begin_sound(&run->setup, err);
     if (!status) status = wf_refuse_own_inputs(run->job, &run->setup, err);
     run->crew.total = run->setup.endless ? 0 : run->setup.end_frame - run->setup.first_frame;
     return status;
@@ -133,6 +135,7 @@ static void tell(const wf_run *run) {
     if (run->frames) wf_frames_tell(run->frames, report);
     if (run->sums) run->kind->summing->tell(run, report);
     run->kind->tell(run, report);
+    if (run->finished) wf_setup_tell_sound(&run->setup);
 }
 
 static weft_status make_video(wf_run *run, weft_error *err) {

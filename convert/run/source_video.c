@@ -221,6 +221,20 @@ static weft_status make_edges(const wf_run *run, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
+/* When the selection begins, on the clock of the file, which its sound keeps to. */
+static void settle_sound(wf_run *run, wf_rational rate) {
+    const video_source *s = run->source;
+    const wf_video_info *info = &s->info;
+    int64_t first = s->picture;
+    run->setup.retimed =
+        !s->keeps_rate && !wf_ratio_equal(wf_ratio_mul(rate, wf_ratio(s->step, 1)), info->rate);
+    if (s->times_s)
+        run->setup.sound_s =
+            wf_ratio_mul(wf_ratio(info->times[first] - info->times[0], 1), info->tick_s);
+    else
+        run->setup.sound_s = wf_ratio_div(wf_ratio(first, s->step), rate);
+}
+
 static double mean_rate(const video_source *s, wf_rational rate) {
     return s->times_s ? (double)s->count / wf_ratio_value(s->times_s[s->count])
                       : wf_ratio_value(rate);
@@ -324,6 +338,7 @@ static weft_status count(wf_run *run, weft_error *err) {
     s->stated = rate;
     if (!status && job->raster.pulldown) status = wf_settle_film(job, "pictures", &rate, err);
     if (status) return status;
+    settle_sound(run, rate);
     describe_first(s);
     wf_warn_of_few(job, mean_rate(s, rate));
     status = settle_fields(run, rate, err);

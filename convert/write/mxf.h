@@ -2,6 +2,8 @@
 #define WF_CONVERT_WRITE_MXF_H
 
 #include "convert/base/outfile.h"
+#include "convert/job/audio.h"
+#include "convert/job/output.h"
 #include "convert/job/timecode.h"
 #include "filters/raster/raster.h"
 
@@ -11,8 +13,6 @@
  * header is closed and complete, the index is in the footer. Equal input makes equal bytes:
  * identifiers are hashes of what is in the file, dates are "unknown". */
 
-#define WF_MXF_SOUND_MOST 16
-
 typedef struct wf_mxf_options {
     const wf_raster *raster; /* borrowed; even width */
     int bits;                /* 8: UYVY; 10: v210 */
@@ -21,7 +21,8 @@ typedef struct wf_mxf_options {
     const char *color_space; /* as wf_output_options; borrowed */
     int64_t frame_count;     /* how many frames will be written */
     wf_timecode start;       /* of the first of them */
-    int silent_tracks;       /* mono, 24 bits, 48 kHz; at most WF_MXF_SOUND_MOST */
+    int64_t first_frame;     /* of the run, from which samples are shared out to frames */
+    wf_sound_feed sound;     /* mono tracks of 16 or 24 bits, at most WF_SOUND_TRACKS */
 } wf_mxf_options;
 
 typedef struct wf_mxf wf_mxf;

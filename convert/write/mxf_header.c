@@ -65,7 +65,7 @@ static int track_uid(int package, int track, int part) {
 }
 
 static int track_count(const writer *w) {
-    return WF_MXF_SOUND_TRACK - 1 + w->o->silent_tracks; /* their IDs are 1 .. count */
+    return WF_MXF_SOUND_TRACK - 1 + w->o->sound.tracks; /* their IDs are 1 .. count */
 }
 
 /* ST 330, a basic UMID: material of several kinds in one container, its number a UUID. */
@@ -184,7 +184,7 @@ static void put_clip(const writer *w, int package, int track) {
 static uint32_t track_number(const writer *w, int package, int track) {
     if (package == MATERIAL || track == WF_MXF_TIMECODE_TRACK) return 0;
     if (track == WF_MXF_PICTURE_TRACK) return wf_mxf_picture_number();
-    return wf_mxf_sound_number(w->o->silent_tracks, track - WF_MXF_SOUND_TRACK);
+    return wf_mxf_sound_number(w->o->sound.tracks, track - WF_MXF_SOUND_TRACK);
 }
 
 static void put_track(const writer *w, int package, int track) {
@@ -230,14 +230,15 @@ static void items_of_file(const writer *w, int track, wf_ul container) {
 }
 
 static void put_sound(const writer *w, int track, wf_ul container) {
+    uint64_t bytes = (uint64_t)w->o->sound.bits / 8;
     size_t begun = begin_set(w, 0x48, DESCRIPTORS + track);
     items_of_file(w, track, container);
-    wf_item_rational(w->b, 0x3d03, wf_ratio(WF_MXF_SAMPLE_RATE, 1));
+    wf_item_rational(w->b, 0x3d03, wf_ratio(WF_SOUND_RATE, 1));
     wf_item_number(w->b, 0x3d02, 1, 1);
     wf_item_number(w->b, 0x3d07, 4, 1);
-    wf_item_number(w->b, 0x3d01, 4, 8 * WF_MXF_SAMPLE_BYTES);
-    wf_item_number(w->b, 0x3d0a, 2, WF_MXF_SAMPLE_BYTES);
-    wf_item_number(w->b, 0x3d09, 4, WF_MXF_SAMPLE_BYTES * WF_MXF_SAMPLE_RATE);
+    wf_item_number(w->b, 0x3d01, 4, 8 * bytes);
+    wf_item_number(w->b, 0x3d0a, 2, bytes);
+    wf_item_number(w->b, 0x3d09, 4, bytes * WF_SOUND_RATE);
     wf_klv_end(w->b, begun);
 }
 

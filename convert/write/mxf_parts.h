@@ -9,10 +9,6 @@
 enum { WF_MXF_BODY_SID = 1, WF_MXF_INDEX_SID = 2 };
 enum { WF_MXF_TIMECODE_TRACK = 1, WF_MXF_PICTURE_TRACK = 2, WF_MXF_SOUND_TRACK = 3 };
 
-/* Sound is mono, 24 bits, 48 kHz. */
-#define WF_MXF_SAMPLE_RATE  48000
-#define WF_MXF_SAMPLE_BYTES 3
-
 /* Essence elements by the last four bytes of their keys, which are their track numbers: type,
  * elements of it in an edit unit, mapping (frame wrapped), number. */
 uint32_t wf_mxf_picture_number(void);

@@ -51,7 +51,7 @@ static wf_ul picture_container(const wf_raster *r) {
 
 int wf_mxf_containers(const wf_mxf_options *o, wf_ul out[WF_MXF_CONTAINERS]) {
     out[0] = picture_container(o->raster);
-    if (!o->silent_tracks) return 1;
+    if (!o->sound.tracks) return 1;
     out[1] = (wf_ul)WF_UL_LABEL(1, 0x0d01030102060100); /* Broadcast Wave, frame wrapped */
     out[2] = (wf_ul)WF_UL_LABEL(3, 0x0d010301027f0100); /* several mappings */
     return 3;

@@ -28,6 +28,8 @@ struct wf_mxf {
     size_t sound_bytes;   /* of each sound element, likewise */
     size_t header_bytes;  /* of the header metadata */
     uint64_t start[PARTITIONS];
+    int32_t *samples; /* of a frame, [][tracks]; NULL: there is no sound */
+    uint8_t *packed;  /* the same of one track as it is written */
 };
 
 /* ---- Sizes ---- */
@@ -36,11 +38,9 @@ static size_t on_grid(size_t bytes) {
     return (bytes + GRID_BYTES - 1) / GRID_BYTES * GRID_BYTES;
 }
 
-/* How many samples of sound frames 0 .. n - 1 have, rounded to the nearest: 1602, 1601,
- * 1602, 1601, 1602 a frame at 29.97. */
+/* How many samples of sound the run's frames before the file's frame n have. */
 static int64_t samples_before(const wf_mxf *m, int64_t n) {
-    wf_rational rate = m->options.raster->frame_rate;
-    return (2 * n * WF_MXF_SAMPLE_RATE * rate.den + rate.num) / (2 * rate.num);
+    return wf_sound_samples(m->options.raster->frame_rate, m->options.first_frame + n);
 }
 
 /* How long an element is: it always ends in a fill item, which makes all elements of a kind
@@ -51,14 +51,21 @@ static size_t element_bytes(size_t value_bytes) {
 }
 
 static size_t unit_bytes(const wf_mxf *m) {
-    return m->picture_bytes + m->sound_bytes * (size_t)m->options.silent_tracks;
+    return m->picture_bytes + m->sound_bytes * (size_t)m->options.sound.tracks;
+}
+
+static size_t most_samples(const wf_mxf *m) {
+    wf_rational rate = m->options.raster->frame_rate;
+    return (size_t)(WF_SOUND_RATE * rate.den / rate.num) + 1;
+}
+
+static size_t sample_bytes(const wf_mxf *m) {
+    return (size_t)m->options.sound.bits / 8;
 }
 
 static void plan_sizes(wf_mxf *m) {
-    wf_rational rate = m->options.raster->frame_rate;
-    size_t most_samples = (size_t)(WF_MXF_SAMPLE_RATE * rate.den / rate.num) + 1;
     m->picture_bytes = element_bytes(m->options.frame_bytes);
-    m->sound_bytes = element_bytes(most_samples * WF_MXF_SAMPLE_BYTES);
+    m->sound_bytes = element_bytes(most_samples(m) * sample_bytes(m));
 }
 
 /* ---- Writing ---- */
@@ -97,15 +104,25 @@ static void put_partition(wf_mxf *m, partition_kind kind, size_t index_bytes) {
     wf_klv_fill(b, GRID_BYTES);
 }
 
+/* A number for the first frame's sound; 0 for silence. */
+static uint64_t sound_seed(const wf_mxf *m) {
+    const wf_sound_feed *sound = &m->options.sound;
+    size_t count = (size_t)samples_before(m, 1) * (size_t)sound->tracks;
+    count -= (size_t)samples_before(m, 0) * (size_t)sound->tracks;
+    if (!sound->read) return 0;
+    return XXH3_64bits(m->samples, count * sizeof *m->samples) + (uint64_t)sound->bits;
+}
+
 /* Makes the seed of the file's identifiers, from what it is asked to be and its first frame. */
-static wf_uid seed_of(const wf_mxf_options *o, const void *picture) {
+static wf_uid seed_of(const wf_mxf *m, const void *picture) {
+    const wf_mxf_options *o = &m->options;
     char text[256];
     wf_uid seed;
     snprintf(text, sizeof text, "%.64s %d %d %.64s %" PRId64 " %d:%d:%d:%d %d %d",
              o->raster->name, o->bits, o->full_range, o->color_space ? o->color_space : "",
              o->frame_count, o->start.hours, o->start.minutes, o->start.seconds,
-             o->start.frames, o->start.drop_frame, o->silent_tracks);
-    uint64_t words = XXH3_64bits(text, strlen(text));
+             o->start.frames, o->start.drop_frame, o->sound.tracks);
+    uint64_t words = XXH3_64bits_withSeed(text, strlen(text), sound_seed(m));
     XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)&seed,
                              XXH3_128bits_withSeed(picture, o->frame_bytes, words));
     return seed;
@@ -113,7 +130,7 @@ static wf_uid seed_of(const wf_mxf_options *o, const void *picture) {
 
 static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err) {
     wf_bytes metadata = {0};
-    m->seed = seed_of(&m->options, picture);
+    m->seed = seed_of(m, picture);
     wf_mxf_metadata(&metadata, &m->options, m->seed);
     wf_klv_fill(&metadata, GRID_BYTES);
     m->header_bytes = metadata.size;
@@ -134,20 +151,31 @@ static void put_element_head(wf_bytes *b, uint32_t number, size_t value_bytes) {
     wf_bytes_number(b, 8, (uint64_t)0x87 << 56 | value_bytes);
 }
 
-static void put_silence(wf_mxf *m) {
-    static const uint8_t zeros[256];
-    int64_t samples = samples_before(m, m->frames + 1) - samples_before(m, m->frames);
-    size_t bytes = (size_t)samples * WF_MXF_SAMPLE_BYTES, missing;
-    int tracks = m->options.silent_tracks;
-    for (int track = 0; track < tracks; track++) {
-        size_t begun = m->bytes.size;
-        put_element_head(&m->bytes, wf_mxf_sound_number(tracks, track), bytes);
-        for (size_t put = 0; put < bytes; put += missing) {
-            missing = bytes - put < sizeof zeros ? bytes - put : sizeof zeros;
-            wf_bytes_put(&m->bytes, zeros, missing);
-        }
-        wf_klv_fill_to(&m->bytes, begun + m->sound_bytes);
+static int64_t frame_samples(const wf_mxf *m) {
+    return samples_before(m, m->frames + 1) - samples_before(m, m->frames);
+}
+
+/* The next samples of all tracks; where nothing is to be read they stay 0. */
+static weft_status read_sound(wf_mxf *m, weft_error *err) {
+    const wf_sound_feed *sound = &m->options.sound;
+    if (!sound->tracks || !sound->read) return WEFT_OK;
+    return sound->read(sound->self, m->samples, frame_samples(m), err);
+}
+
+static void put_track(wf_mxf *m, int track) {
+    const wf_sound_feed *sound = &m->options.sound;
+    int64_t samples = frame_samples(m);
+    int bytes = sound->bits / 8;
+    size_t begun = m->bytes.size;
+    uint8_t *to = m->packed;
+    put_element_head(&m->bytes, wf_mxf_sound_number(sound->tracks, track),
+                     (size_t)samples * (size_t)bytes);
+    for (int64_t i = 0; i < samples; i++) {
+        uint32_t value = (uint32_t)m->samples[i * sound->tracks + track];
+        for (int b = 0; b < bytes; b++) *to++ = (uint8_t)(value >> (32 - sound->bits + 8 * b));
     }
+    wf_bytes_put(&m->bytes, m->packed, (size_t)(to - m->packed));
+    wf_klv_fill_to(&m->bytes, begun + m->sound_bytes);
 }
 
 weft_status wf_mxf_write(wf_mxf *m, const void *picture, weft_error *err) {
@@ -155,12 +183,13 @@ weft_status wf_mxf_write(wf_mxf *m, const void *picture, weft_error *err) {
         return wf_fail(err, WEFT_FAILED,
                        "MXF: a frame more than the %" PRId64 " that the header says",
                        m->options.frame_count);
-    weft_status status = m->frames ? WEFT_OK : write_header(m, picture, err);
+    weft_status status = read_sound(m, err);
+    if (!status && !m->frames) status = write_header(m, picture, err);
     if (status) return status;
     put_element_head(&m->bytes, wf_mxf_picture_number(), m->options.frame_bytes);
     wf_bytes_put(&m->bytes, picture, m->options.frame_bytes);
     wf_klv_fill_to(&m->bytes, m->picture_bytes);
-    put_silence(m);
+    for (int track = 0; track < m->options.sound.tracks; track++) put_track(m, track);
     m->frames++;
     return flush(m, err);
 }
@@ -170,7 +199,7 @@ weft_status wf_mxf_write(wf_mxf *m, const void *picture, weft_error *err) {
 /* One segment tells where every frame is, since edit units are all equally long. */
 static void put_index(wf_bytes *b, const wf_mxf *m) {
     static const wf_ul key = WF_UL_SET(0x0d01020101100100);
-    int elements = 1 + m->options.silent_tracks;
+    int elements = 1 + m->options.sound.tracks;
     size_t begun = wf_klv_begin(b, key);
     wf_item_uid(b, 0x3c0a, wf_mxf_uid(m->seed, WF_MXF_INDEX_UID));
     wf_item_rational(b, 0x3f0b, m->options.raster->frame_rate);
@@ -219,13 +248,23 @@ weft_status wf_mxf_finish(wf_mxf *m, weft_error *err) {
 /* ---- Opening ---- */
 
 static weft_status check(const wf_mxf_options *o, weft_error *err) {
-    if (o->silent_tracks < 0 || o->silent_tracks > WF_MXF_SOUND_MOST)
+    if (o->sound.tracks < 0 || o->sound.tracks > WF_SOUND_TRACKS)
         return wf_fail(err, WEFT_USAGE, "MXF: %d tracks of sound; there can be 0 to %d",
-                       o->silent_tracks, WF_MXF_SOUND_MOST);
+                       o->sound.tracks, WF_SOUND_TRACKS);
     if (o->frame_bytes > UINT32_MAX / 2)
         return wf_fail(err, WEFT_USAGE, "MXF: frames of %zu bytes are too large for its index",
                        o->frame_bytes);
     return WEFT_OK;
+}
+
+/* For the sound of a frame. */
+static weft_status make_room(wf_mxf *m, weft_error *err) {
+    size_t count = most_samples(m), tracks = (size_t)m->options.sound.tracks;
+    if (!tracks) return WEFT_OK;
+    m->samples = calloc(count * tracks, sizeof *m->samples);
+    m->packed = calloc(count, sample_bytes(m));
+    if (m->samples && m->packed) return WEFT_OK;
+    return wf_fail(err, WEFT_NO_MEMORY, "no memory for the sound of a frame");
 }
 
 weft_status wf_mxf_open(const wf_mxf_options *options, wf_outfile *file, wf_mxf **out,
@@ -237,11 +276,17 @@ weft_status wf_mxf_open(const wf_mxf_options *options, wf_outfile *file, wf_mxf 
     m->options = *options;
     m->file = file;
     plan_sizes(m);
-    *out = m;
-    return WEFT_OK;
+    status = make_room(m, err);
+    if (status)
+        wf_mxf_free(m);
+    else
+        *out = m;
+    return status;
 }
 
 void wf_mxf_free(wf_mxf *m) {
+    free(m->samples);
+    free(m->packed);
     free(m->bytes.data);
     free(m);
 }

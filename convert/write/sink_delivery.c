@@ -21,18 +21,6 @@ static const wf_delivery *delivery_of(const wf_output_options *o) {
     return wf_delivery_for(o->output, o->codec, &container, NULL);
 }
 
-#define MOST_TRACKS 16
-
-static weft_status check_audio(const wf_output_options *o, const wf_delivery *d,
-                               weft_error *err) {
-    bool groups = d->one_audio_stream && o->silent_tracks % 4;
-    if (o->silent_tracks <= MOST_TRACKS && !groups &&
-        !(d->one_audio_stream && o->silent_tracks > 8))
-        return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "%.500s: %s takes %s tracks of sound, not %d", o->output,
-                   d->kind.name, d->one_audio_stream ? "4 or 8" : "up to 16", o->silent_tracks);
-}
-
 static weft_status check(const wf_output_options *o, weft_error *err) {
     const wf_delivery *d = delivery_of(o);
     if (o->full_range && !d->full_range)
@@ -40,7 +28,7 @@ static weft_status check(const wf_output_options *o, weft_error *err) {
                        "%.500s: readers take %s for narrow range; leave out --range full",
                        o->output, d->kind.name);
     if (!wf_delivery_form_for(d, o, err)) return WEFT_USAGE;
-    weft_status status = check_audio(o, d, err);
+    weft_status status = wf_delivery_check_sound(d, o, err);
     if (status || wf_module_built("libav")) return status;
     return wf_fail(err, WEFT_FAILED,
                    "%.500s: containers are written through libav, which this weft was built "

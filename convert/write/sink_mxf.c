@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "convert/base/outfile.h"
+#include "convert/job/delivery.h"
 #include "convert/write/mxf.h"
 #include "convert/write/packing.h"
 #include "convert/write/sink_kinds.h"
@@ -26,9 +27,9 @@ static void abandon(wf_sink *s) {
 }
 
 static weft_status check(const wf_output_options *o, weft_error *err) {
-    if (o->silent_tracks <= WF_MXF_SOUND_MOST) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "%.500s: MXF takes up to %d tracks of sound, not %d",
-                   o->output, WF_MXF_SOUND_MOST, o->silent_tracks);
+    bool container;
+    return wf_delivery_check_sound(wf_delivery_for(o->output, o->codec, &container, NULL), o,
+                                   err);
 }
 
 static size_t frame_bytes(const wf_output_options *o) {
@@ -64,7 +65,8 @@ static weft_status start(wf_sink *s, weft_error *err) {
         .color_space = o->color_space,
         .frame_count = o->frame_count,
         .start = start_of(o),
-        .silent_tracks = o->silent_tracks,
+        .first_frame = o->first_frame,
+        .sound = o->sound,
     };
     /* A job that resumes gets here only if what stands at the name is no whole output, which
      * it may replace. */

@@ -13,7 +13,7 @@
 #include "convert/job/timecode.h"
 #include "convert/media/container.h"
 #include "convert/media/libav/libav.h"
-#include "convert/media/libav/libav_sound.h"
+#include "convert/media/libav/libav_write_sound.h"
 
 WEFT_API wf_libav_writer_fn wf_libav_writer_of;
 
@@ -274,13 +274,13 @@ static weft_status write_frame(void *state, const wf_frame *frame, weft_error *e
     take_frame(w, frame);
     weft_status status = encode(w, w->frame, err);
     w->frames++;
-    return status ? status : wf_sound_write(w, err);
+    return status ? status : wf_written_sound_write(w, err);
 }
 
 /* ---- Life ---- */
 
 static void release(wf_writing *w) {
-    wf_sound_free(&w->sound);
+    wf_written_sound_free(&w->sound);
     avcodec_free_context(&w->codec);
     av_frame_free(&w->frame);
     av_packet_free(&w->packet);
@@ -308,7 +308,7 @@ static weft_status open_writing(const wf_output_options *options, const wf_deliv
     weft_status status = open_file(w, err);
     if (!status) status = open_encoder(w, err);
     if (!status) status = open_stream(w, err);
-    if (!status) status = wf_sound_open(w, err);
+    if (!status) status = wf_written_sound_open(w, err);
     if (!status) status = make_frame(w, err);
     if (!status) status = write_header(w, err);
     if (status)

@@ -5,20 +5,21 @@
 #include <libavformat/avformat.h>
 
 #include "convert/base/outfile.h"
+#include "convert/job/audio.h"
 #include "convert/job/colors.h"
 #include "convert/media/libav/libav.h"
 
 /* A delivery that is being written, and what its picture and its sound both do. */
 
-#define WF_SOUND_RATE 48000
-
-/* Silent PCM beside a video. */
-typedef struct wf_sound {
+/* PCM beside a video. */
+typedef struct wf_written_sound {
     AVCodecContext *codec; /* NULL: none */
     AVFrame *frame;
     int streams, first_stream; /* of the file: one a track, or one for all */
-    int64_t samples;           /* written so far */
-} wf_sound;
+    int64_t first_frame;       /* of the run, from which samples are shared out to frames */
+    int64_t samples;           /* of a track, written so far */
+    int32_t *next;             /* those of a frame, [][tracks] */
+} wf_written_sound;
 
 typedef struct wf_writing {
     wf_output_options options;
@@ -33,7 +34,7 @@ typedef struct wf_writing {
     AVStream *stream;
     AVFrame *frame;
     AVPacket *packet;
-    wf_sound sound;
+    wf_written_sound sound;
     int64_t frames;
 } wf_writing;
 

@@ -29,7 +29,7 @@ static wf_mxf_options options_for(const wf_raster *raster, int64_t frames, int t
                             .frame_bytes = PICTURE_BYTES,
                             .color_space = "",
                             .frame_count = frames,
-                            .silent_tracks = tracks};
+                            .sound = {.tracks = tracks, .bits = 24}};
 }
 
 /* Writes `frames` frames, the first of bytes `fill`, into out.mxf, or says why it could not. */
@@ -254,9 +254,9 @@ static void what_does_not_fit_is_refused(void **state) {
     assert_non_null(strstr(err.text, "2 frames"));
     assert_int_equal(write_file(&o, 4, 1, &err), WEFT_FAILED);
     assert_int_equal(write_file(&o, 0, 1, &err), WEFT_FAILED);
-    o.silent_tracks = WF_MXF_SOUND_MOST + 1;
+    o.sound.tracks = WF_SOUND_TRACKS + 1;
     assert_int_equal(write_file(&o, 3, 1, &err), WEFT_USAGE);
-    o.silent_tracks = 0;
+    o.sound.tracks = 0;
     o.frame_bytes = (size_t)1 << 31;
     assert_int_equal(write_file(&o, 0, 1, &err), WEFT_USAGE);
     assert_int_equal(access(path, F_OK), -1);
