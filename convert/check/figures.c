@@ -17,6 +17,8 @@ static const wf_figure_kind figures_table[] = {
     {"cross_luma", "p999", "its 99.9th percentile", FIGURE(cross_luma_p999), false},
     {"order", "ratio", "total variation in time, bottom first over top first",
      FIGURE(order_ratio), false},
+    {"order", "agreement", "share of the picture's regions that agree on the order",
+     FIGURE(order_agreement), true},
     {"legal", "range_share", "share of the picture outside narrow range", FIGURE(range_share),
      false},
     {"legal", "r103_share", "share of the picture outside EBU R103", FIGURE(r103_share), false},

@@ -25,8 +25,9 @@ typedef struct wf_figures {
     /* sqrt(U^2 + V^2) that luma alone gains from cheap composite coding and a notch decoder,
      * and the luma that color alone gains, in units of Y'. */
     double cross_color_rms, cross_color_p999, cross_luma_rms, cross_luma_p999;
-    const char *order_verdict;      /* NULL: a single frame has no order */
-    double order_ratio;             /* total variation in time, bottom first over top first */
+    const char *order_verdict; /* NULL: a single frame has no order */
+    double order_ratio;        /* total variation in time, bottom first over top first */
+    double order_agreement; /* share of the picture's regions that see the order; NaN: none */
     double range_share, r103_share; /* of the picture outside narrow range, outside EBU R 103 */
     double reserved_share;          /* of the picture that has codes kept for synchronization */
     /* Against the reference; samples as shares of the largest code, so that PSNR has the peak

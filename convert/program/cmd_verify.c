@@ -5,7 +5,7 @@
 
 #include "convert/base/fail.h"
 #include "convert/base/json.h"
-#include "convert/check/verify.h"
+#include "convert/check/verify/verify.h"
 #include "convert/job/report.h"
 #include "convert/program/cmd.h"
 

@@ -10,8 +10,8 @@
 
 #define VERDICT "order.verdict"
 
-static const char *const verdicts[] = {"tff", "bff",       "progressive",
-                                       "psf", "telecined", "still"};
+static const char *const verdicts[] = {"tff",       "bff",   "progressive", "psf",
+                                       "telecined", "still", "open"};
 #define VERDICTS (sizeof verdicts / sizeof *verdicts)
 
 static void name_of(const wf_figure_kind *kind, char name[64]) {
@@ -46,7 +46,7 @@ static weft_status parse_verdict(const char *value, wf_limit *out, weft_error *e
         }
     return wf_fail(err, WEFT_USAGE,
                    "--limit " VERDICT "=%.100s: it is one of tff, bff, progressive, psf, "
-                   "telecined, still",
+                   "telecined, still, open",
                    value);
 }
 

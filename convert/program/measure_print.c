@@ -59,7 +59,8 @@ static void print_order(const wf_figures *f) {
                 {"progressive", "progressive"},
                 {"psf", "segmented frames: both fields show one instant"},
                 {"telecined", "telecined: fields repeat in 2:3"},
-                {"still", "still: nothing moves"}};
+                {"still", "still: nothing moves"},
+                {"open", "open: the picture's regions do not agree"}};
     print_row("field order");
     for (size_t i = 0; f->order_verdict && i < sizeof rows / sizeof *rows; i++)
         if (!strcmp(rows[i].verdict, f->order_verdict)) printf("  %s", rows[i].words);

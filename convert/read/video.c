@@ -52,17 +52,18 @@ static void make_raster(wf_video_info *info, const wf_video_label *label) {
              info->raster.scan == WF_PROGRESSIVE ? "p" : "i");
 }
 
-/* Takes the 16:9 variant of the raster where the pixels have that shape, else the raster
- * with these pixels. */
+/* Takes the 16:9 variant of the raster where the pixels are nearer to that shape, else the
+ * raster with these pixels. */
 static void take_aspect(wf_raster *raster, wf_rational aspect) {
     char name[sizeof raster->name + sizeof "-wide"], why[256];
     wf_raster wide;
     if (!wf_ratio_given(aspect) || aspect.num <= 0 ||
         wf_ratio_equal(aspect, raster->pixel_aspect))
         return;
+    double shape = wf_ratio_value(aspect), narrow = wf_ratio_value(raster->pixel_aspect);
     snprintf(name, sizeof name, "%s-wide", raster->name);
     if (wf_raster_parse(name, &wide, why, sizeof why) &&
-        wf_ratio_equal(aspect, wide.pixel_aspect))
+        shape * shape > narrow * wf_ratio_value(wide.pixel_aspect))
         memcpy(raster->name, wide.name, sizeof raster->name);
     raster->pixel_aspect = aspect;
 }

@@ -15,7 +15,8 @@ check "v210 of 1080" made h.mov --codec v210 --raster 1080i50 --timecode 10:00:0
 quiet_ffmpeg -i h.mov -map 0:v -c copy -timecode 10:00:00:00 copied.mov
 check "ffmpeg's copy is right" right copied.mov --profile v210-1080i
 quiet_ffmpeg -i h.mov -map 0:v -c copy -write_tmcd 0 timecode.mov
-check "timecode" only timecode timecode.mov
+check "timecode" only timecode timecode.mov --profile v210-1080i
+check "which nobody asks for" right timecode.mov
 quiet_ffmpeg -i h.mov -f lavfi -t 1 -i anullsrc=r=48000 -map 0:v -map 1 -c:v copy -c:a pcm_s24le -timecode 10:00:00:00 sound.mov
 check "sound" only sound sound.mov
 quiet_ffmpeg -i x.mxf -map 0 -c:v copy -c:a pcm_s16le -timecode 10:00:00:00 bits.mxf

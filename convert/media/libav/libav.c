@@ -10,6 +10,7 @@
 #include <libavformat/avformat.h>
 #include <libavutil/parseutils.h>
 #include <libavutil/pixdesc.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -287,15 +288,40 @@ static wf_rational pixel_aspect(const reading *r, int lines) {
     return given;
 }
 
+static bool is_customary(wf_rational rate) {
+    const wf_raster *r;
+    for (size_t i = 0; (r = wf_raster_at(i)); i++)
+        if (wf_ratio_equal(r->frame_rate, rate)) return true;
+    return false;
+}
+
+/* The rate at which frames are shown. Elementary streams have no times, and the demuxer makes
+ * up 25 a second; fields that are packets of their own count twice; and where fields are
+ * repeated, as in film on 60 fields, fewer frames are coded than are shown. A mean that is no
+ * rate of video is one of times that were rounded. */
+static wf_rational frame_rate(const reading *r) {
+    const AVStream *stream = r->format->streams[r->stream];
+    wf_rational average = ratio_of(stream->avg_frame_rate);
+    wf_rational coded = ratio_of(r->codec->framerate);
+    if (!wf_ratio_given(average)) average = ratio_of(stream->r_frame_rate);
+    if (!wf_ratio_given(coded) || !wf_ratio_given(average)) return average;
+    double times = wf_ratio_value(average) / wf_ratio_value(coded);
+    bool untimed = r->format->iformat->flags & AVFMT_NOTIMESTAMPS;
+    bool fields = r->frame->interlaced_frame && fabs(times - 2) < 1e-6;
+    bool repeats =
+        r->codec->codec_id == AV_CODEC_ID_MPEG2VIDEO && times > 0.79 && times < 0.999;
+    bool rounded = fabs(times - 1) < 0.1 && is_customary(coded) && !is_customary(average);
+    return untimed || fields || repeats || rounded ? coded : average;
+}
+
 static void describe_stream(wf_video *v, wf_video_label *label) {
     const reading *r = v->state;
     const AVStream *stream = r->format->streams[r->stream];
-    wf_rational average = ratio_of(stream->avg_frame_rate);
     v->info.width_px = r->frame->width;
     v->info.interval_lines = interval_lines(r);
     v->info.lines = r->frame->height - v->info.interval_lines;
     v->info.frames = !v->pipe && stream->nb_frames > 0 ? stream->nb_frames : -1;
-    label->rate = wf_ratio_given(average) ? average : ratio_of(stream->r_frame_rate);
+    label->rate = frame_rate(r);
     label->aspect = pixel_aspect(r, v->info.lines);
     label_scan(r, label);
     label_color(r, label);

@@ -44,6 +44,7 @@ typedef struct wf_structure {
     uint8_t id[2][WF_ID_BYTES];
     bool has_id[2];
 
+    bool quicktime; /* its brand is QuickTime's, or it has none, as before brands were */
     int sound_tracks, sound_disabled, sound_grouped; /* QuickTime and Matroska */
 } wf_structure;
 

@@ -227,11 +227,19 @@ static bool has_fragments(const wf_extent *x, const atom *moov) {
     return false;
 }
 
+static void read_brand(movie *m, const atom *a) {
+    char brand[4];
+    if (wf_extent_read(m->x, a->body, brand, sizeof brand))
+        m->s->quicktime = !memcmp(brand, "qt  ", sizeof brand);
+}
+
 void wf_structure_mov(const wf_extent *x, wf_structure *s) {
     movie m = {.x = x, .s = s};
     int64_t at = 0;
+    s->quicktime = true;
     for (atom a; next_atom(x, at, x->bytes, &a); at = a.next) {
         m.fragment_index |= is(&a, "mfra");
+        if (is(&a, "ftyp")) read_brand(&m, &a);
         if (!is(&a, "moov") || m.there) continue;
         m.there = true;
         m.fragments = has_fragments(x, &a);

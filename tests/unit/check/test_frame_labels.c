@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#include "convert/check/frame_labels.h"
+#include "convert/check/verify/frame_labels.h"
 #include "convert/job/timecode.h"
 
 static char directory[] = "/tmp/weft-labels-XXXXXX";

@@ -325,6 +325,41 @@ static void order_from_pixels(void **state) {
     }
 }
 
+/* Bars that move by a third of their pitch a field: after the three fields of the false order
+ * they are where they were. Beside them a disk that moves slowly, if user says so. */
+static double bars_luma(const void *user, int frame, int x, int y) {
+    double t = top_first(frame, y % 2 == 0);
+    if (user && x < 48)
+        return 0.2 + 0.5 / (1 + exp((hypot(x - 20 - 0.9 * t, y - 40 - t) - 14) / 1.2));
+    return 0.5 + 0.4 * sin(2 * M_PI * (x - 4 * t) / 12);
+}
+
+/* Fields in one order on the left and in the other on the right. */
+static double halves_luma(const void *user, int frame, int x, int y) {
+    (void)user;
+    double t = x < 64 ? top_first(frame, y % 2 == 0) : bottom_first(frame, y % 2 == 0);
+    return scene(t, x < 64 ? x : x - 64, y);
+}
+
+static void regions_that_disagree(void **state) {
+    (void)state;
+    codes c = {128, 96, 11, 't', "25:1", halves_luma, NULL};
+    write_y4m("halves.y4m", &c);
+    wf_figures m = measured("halves.y4m", &plain);
+    assert_string_equal(m.order_verdict, "open");
+    assert_true(m.order_agreement > 1.0 / 3 && m.order_agreement < 2.0 / 3);
+    c.luma = bars_luma;
+    write_y4m("bars.y4m", &c);
+    m = measured("bars.y4m", &plain);
+    assert_true(m.order_ratio < 0.9); /* it looks as if bottom came first */
+    assert_string_equal(m.order_verdict, "open");
+    c.user = &c;
+    write_y4m("disk.y4m", &c);
+    m = measured("disk.y4m", &plain);
+    assert_string_equal(m.order_verdict, "open"); /* and the disk says that it does not */
+    assert_close(m.order_agreement, 0, 1e-9);
+}
+
 /* Noise of a code or two is no motion. */
 static double noisy_luma(const void *user, int frame, int x, int y) {
     uint32_t h = (uint32_t)(frame * 7919 + y * 104729 + x) * 2654435761u;
@@ -537,6 +572,7 @@ int main(void) {
         cmocka_unit_test(zone_plates),
         cmocka_unit_test(sharpness_of_gratings),
         cmocka_unit_test(order_from_pixels),
+        cmocka_unit_test(regions_that_disagree),
         cmocka_unit_test(stills_with_noise),
         cmocka_unit_test(flicker_where_nothing_moves),
         cmocka_unit_test(legality),

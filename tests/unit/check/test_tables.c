@@ -8,8 +8,8 @@
 
 #include "convert/base/fail.h"
 #include "convert/check/figures.h"
-#include "convert/check/finding.h"
-#include "convert/check/profiles.h"
+#include "convert/check/verify/finding.h"
+#include "convert/check/verify/profiles.h"
 #include "filters/raster/raster.h"
 
 /* Each figure has a place of its own, and those of a group follow each other, which makes them

@@ -1,5 +1,5 @@
 /* Checks: whether all of the file is there, as its structure and its lengths tell. */
-#include "convert/check/check_whole.h"
+#include "convert/check/verify/check_whole.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Reads a file to its end and gathers all that the checks look at. */
-#include "convert/check/verify.h"
+#include "convert/check/verify/verify.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,19 +30,38 @@ static const char *raster_but_for_order(const wf_raster *said) {
     return NULL;
 }
 
+/* A progressive raster of the table with the file's size and rate; NULL: none. */
+static const char *progressive_like(const wf_raster *said) {
+    const wf_raster *r;
+    for (size_t i = 0; (r = wf_raster_at(i)); i++)
+        if (r->scan == WF_PROGRESSIVE && r->width_px == said->width_px &&
+            r->lines == said->lines && wf_ratio_equal(r->frame_rate, said->frame_rate))
+            return r->name;
+    return NULL;
+}
+
+static bool shows_fields(const wf_figures *f) {
+    return f->order_verdict && wf_in_words("tff bff telecined", f->order_verdict);
+}
+
 /* Takes the raster that the file says it is. Where its order or scan fits none of the table,
  * one that differs in no more than that is taken; a size that the table does not have stays as
- * it is. */
+ * it is. Where it does not say how it is scanned, it may be progressive, unless its pixels
+ * show fields or there is no such raster. */
 static void take_said_raster(wf_subject *s) {
     const wf_video_info *v = &s->figures.info;
     char why[256];
+    bool known = v->scan_known || s->metadata.scan_known;
     s->raster = v->raster;
     if (s->contained && s->metadata.scan_known && !s->metadata.interlaced)
         s->raster.scan = WF_PROGRESSIVE;
+    const char *whole =
+        known || shows_fields(&s->figures) ? NULL : progressive_like(&s->raster);
     bool made_up = strchr(v->raster.name, '@') || s->raster.scan != v->raster.scan;
-    const char *name = made_up ? raster_but_for_order(&s->raster) : v->raster.name;
-    s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why)
-                           : v->scan_known || s->metadata.scan_known;
+    const char *name = whole     ? whole
+                       : made_up ? raster_but_for_order(&s->raster)
+                                 : v->raster.name;
+    s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why) : known;
 }
 
 static void find_raster(wf_subject *s, const wf_raster *asked) {

@@ -1,6 +1,7 @@
-#ifndef WF_CONVERT_CHECK_PROFILES_H
-#define WF_CONVERT_CHECK_PROFILES_H
+#ifndef WF_CONVERT_CHECK_VERIFY_PROFILES_H
+#define WF_CONVERT_CHECK_VERIFY_PROFILES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "convert/weft.h"
@@ -12,6 +13,7 @@ typedef struct wf_profile {
     const char *codec;        /* libavcodec's name */
     const char *rasters;      /* one or several with blanks between; never NULL */
     const char *start;        /* timecode of the first frame */
+    bool timecode;            /* it has one */
     int bits;
     int sound_channels;   /* the least */
     const char *channels; /* one of these numbers, with blanks between */

@@ -1,12 +1,12 @@
-#ifndef WF_CONVERT_CHECK_SUBJECT_H
-#define WF_CONVERT_CHECK_SUBJECT_H
+#ifndef WF_CONVERT_CHECK_VERIFY_SUBJECT_H
+#define WF_CONVERT_CHECK_VERIFY_SUBJECT_H
 
 #include <stdbool.h>
 
 #include "convert/check/figures.h"
-#include "convert/check/finding.h"
-#include "convert/check/frame_labels.h"
-#include "convert/check/profiles.h"
+#include "convert/check/verify/finding.h"
+#include "convert/check/verify/frame_labels.h"
+#include "convert/check/verify/profiles.h"
 #include "convert/media/metadata.h"
 #include "convert/media/structure/structure.h"
 

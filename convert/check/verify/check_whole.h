@@ -1,7 +1,7 @@
-#ifndef WF_CONVERT_CHECK_CHECK_WHOLE_H
-#define WF_CONVERT_CHECK_CHECK_WHOLE_H
+#ifndef WF_CONVERT_CHECK_VERIFY_CHECK_WHOLE_H
+#define WF_CONVERT_CHECK_VERIFY_CHECK_WHOLE_H
 
-#include "convert/check/subject.h"
+#include "convert/check/verify/subject.h"
 
 /* Checks: whether all of the file is there. wf_check_fn (subject.h) says what they do. */
 wf_check_fn wf_check_whole, wf_check_header, wf_check_durations;

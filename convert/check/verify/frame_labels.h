@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_CHECK_FRAME_LABELS_H
-#define WF_CONVERT_CHECK_FRAME_LABELS_H
+#ifndef WF_CONVERT_CHECK_VERIFY_FRAME_LABELS_H
+#define WF_CONVERT_CHECK_VERIFY_FRAME_LABELS_H
 
 #include "convert/base/fail.h"
 #include "convert/base/values.h"

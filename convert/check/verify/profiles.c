@@ -1,13 +1,13 @@
 /* The table of delivery profiles. */
-#include "convert/check/profiles.h"
+#include "convert/check/verify/profiles.h"
 
 #include <string.h>
 
 #include "convert/base/fail.h"
 #include "filters/base/spelling.h"
 
-#define MXF(codec_) .container = "mxf", .codec = codec_
-#define MOV(codec_) .container = "mov", .codec = codec_
+#define MXF(codec_) .container = "mxf", .codec = codec_, .timecode = true
+#define MOV(codec_) .container = "mov", .codec = codec_, .timecode = true
 #define MKV(codec_) .container = "matroska", .codec = codec_
 #define BOTH_1080I  "1080i50 1080i59.94"
 

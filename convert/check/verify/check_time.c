@@ -1,17 +1,19 @@
 /* Checks: labels of time, how many frames there are and how much sound. */
-#include "convert/check/check_time.h"
+#include "convert/check/verify/check_time.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
-#include "convert/check/check_whole.h"
+#include "convert/check/verify/check_whole.h"
 #include "convert/job/timecode.h"
 
 wf_verdict wf_check_timecode(const wf_subject *s, wf_finding *f) {
     wf_timecode label;
     char why[160] = "HH:MM:SS:FF of the first frame";
     const char *is = *s->metadata.timecode ? s->metadata.timecode : "none";
+    if (!*s->metadata.timecode && !(s->profile && s->profile->timecode))
+        return wf_open_question(f, "none");
     bool right = wf_parse_timecode(is, &label) &&
                  wf_timecode_check(&label, s->raster.frame_rate, why, sizeof why);
     return wf_say(f, right, is, why);
@@ -56,6 +58,15 @@ wf_verdict wf_check_base(const wf_subject *s, wf_finding *f) {
     return wf_say(f, base == want && (!drop || may_drop), is, should);
 }
 
+/* Frames that so many make which the container counts: it may count fields, or frames that show
+ * repeated ones. */
+static double frames_of(const wf_subject *s, double said) {
+    const wf_contents *there = &s->metadata.there;
+    if (there->lone_fields && there->lone_fields == there->packets) return said / 2;
+    bool shown = there->repeated && fabs(said - (double)there->fields / 2) < 1;
+    return shown ? (double)s->figures.frames : said;
+}
+
 wf_verdict wf_check_frames(const wf_subject *s, wf_finding *f) {
     char is[64], should[64];
     double said = s->metadata.frames > 0
@@ -64,7 +75,7 @@ wf_verdict wf_check_frames(const wf_subject *s, wf_finding *f) {
     if (said <= 0) return wf_open_question(f, "the container does not say");
     snprintf(is, sizeof is, "%.0f said, %" PRId64 " there", said, s->figures.frames);
     snprintf(should, sizeof should, "as many as are said");
-    return wf_say(f, fabs(said - (double)s->figures.frames) < 0.5, is, should);
+    return wf_say(f, fabs(frames_of(s, said) - (double)s->figures.frames) < 0.5, is, should);
 }
 
 /* Whether a stream of sound is as long as the picture, to a frame and what its coding pads. */

@@ -1,5 +1,5 @@
 /* Reads the labels in the headers of DPX and EXR sequences. */
-#include "convert/check/frame_labels.h"
+#include "convert/check/verify/frame_labels.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Checks: what is in the pixels, whatever the file says. */
-#include "convert/check/check_pixels.h"
+#include "convert/check/verify/check_pixels.h"
 
 #include <inttypes.h>
 #include <stdio.h>

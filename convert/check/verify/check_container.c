@@ -1,5 +1,5 @@
 /* Checks: what MOV and MXF files hold besides their pictures, against their formats. */
-#include "convert/check/check_container.h"
+#include "convert/check/verify/check_container.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +13,9 @@ wf_verdict wf_check_fiel(const wf_subject *s, wf_finding *f) {
     if (s->metadata.has_fiel)
         snprintf(is, sizeof is, "{%d,%d}", s->metadata.fiel[0], s->metadata.fiel[1]);
     snprintf(should, sizeof should, "{%d,%d}", interlaced ? 2 : 1, detail);
+    if (!s->metadata.has_fiel && interlaced && s->metadata.scan_known)
+        return wf_open_question(f, "none, and the stream itself says its order");
+    if (s->metadata.there.repeated) return wf_open_question(f, "its fields are repeated");
     bool left_out = !s->metadata.has_fiel && !interlaced;
     return wf_say(f, left_out || !strcmp(is, should), is, should);
 }
@@ -22,7 +25,32 @@ wf_verdict wf_check_atoms(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%s%s%s", c->has_pasp ? "pasp " : "", c->has_colr ? "colr " : "",
              c->has_clap ? "clap" : "");
+    if (c->has_pasp && !c->has_colr && !s->profile && !s->raster_asked)
+        return wf_open_question(f, is); /* nobody asks for colors */
     return wf_say(f, c->has_pasp && c->has_colr, *is ? is : "none", "pasp and colr");
+}
+
+/* Clean apertures of other makers: 2.5 % or less is cut off at each edge, or the line of 601 is
+ * taken to be 702 samples wide (Rec. ITU-R BT.601), or 711 of 525 lines (53.33 us hold 710.85
+ * of these). */
+static const struct {
+    int width_px, lines, clean_width, clean_lines;
+} apertures[] = {
+    {1920, 1080, 1888, 1062}, {1440, 1080, 1416, 1062}, {1280, 1080, 1259, 1062},
+    {1280, 720, 1248, 702},   {960, 720, 936, 702},     {720, 576, 702, 576},
+    {720, 576, 703, 576},     {720, 576, 704, 576},     {720, 486, 704, 480},
+    {720, 486, 704, 486},     {720, 486, 711, 486},     {720, 480, 704, 480},
+    {720, 480, 711, 480},
+};
+
+/* Whether another maker cuts off as much; parts of a pixel do not count. */
+static bool is_customary(const wf_raster *r, const int64_t clean[2]) {
+    int64_t width = (clean[0] + 32768) >> 16, lines = (clean[1] + 32768) >> 16;
+    for (size_t i = 0; i < sizeof apertures / sizeof *apertures; i++)
+        if (apertures[i].width_px == r->width_px && apertures[i].lines == r->lines &&
+            apertures[i].clean_width == width && apertures[i].clean_lines == lines)
+            return true;
+    return false;
 }
 
 wf_verdict wf_check_clap(const wf_subject *s, wf_finding *f) {
@@ -33,7 +61,9 @@ wf_verdict wf_check_clap(const wf_subject *s, wf_finding *f) {
     wf_clean_aperture(&s->raster, &width, &lines);
     snprintf(is, sizeof is, "%.6gx%.6g", (double)clean[0] / 65536, (double)clean[1] / 65536);
     snprintf(should, sizeof should, "%ux%u", width, lines);
-    return wf_say(f, !strcmp(is, should), is, should);
+    bool own = !strcmp(is, should);
+    if (!own && is_customary(&s->raster, clean)) return wf_open_question(f, is);
+    return wf_say(f, own, is, should);
 }
 
 /* The raster's map, moved up by the lines that are coded above the picture. */
@@ -60,8 +90,11 @@ wf_verdict wf_check_layout(const wf_subject *s, wf_finding *f) {
     return wf_say(f, layout == 0 || segmented, is, "full frame");
 }
 
+/* OP-Atom (SMPTE ST 390) has one track a file, which no profile here asks for. */
 wf_verdict wf_check_pattern(const wf_subject *s, wf_finding *f) {
-    return wf_say(f, !strcmp(s->metadata.pattern, "OP1a"), s->metadata.pattern, "OP1a");
+    const char *is = s->metadata.pattern;
+    if (!s->profile && !strcmp(is, "OPAtom")) return wf_open_question(f, is);
+    return wf_say(f, !strcmp(is, "OP1a"), is, "OP1a");
 }
 
 wf_verdict wf_check_dominance(const wf_subject *s, wf_finding *f) {
@@ -72,10 +105,13 @@ wf_verdict wf_check_dominance(const wf_subject *s, wf_finding *f) {
     return wf_say(f, first == 1, is, "1, as field 1 is the first in time");
 }
 
+/* 0 and 4 are co-sited, as 4:2:2 is; 6 is between two lines, as 4:2:0 of MPEG-2 is. */
 wf_verdict wf_check_siting(const wf_subject *s, wf_finding *f) {
     char is[16];
-    if (s->metadata.siting < 0) return wf_open_question(f, "not said");
-    snprintf(is, sizeof is, "%d", s->metadata.siting);
-    bool right = s->metadata.siting == 0 || s->metadata.siting == 4; /* 4: as Rec. 601 has it */
-    return wf_say(f, right, is, "0, with the first luma sample of a pair");
+    int siting = s->metadata.siting;
+    if (siting < 0 || siting == 255) return wf_open_question(f, "not said");
+    snprintf(is, sizeof is, "%d", siting);
+    bool between = siting == 6 && s->figures.info.down == 2;
+    return wf_say(f, siting == 0 || siting == 4 || between, is,
+                  "0, with the first luma sample of a pair");
 }

@@ -1,9 +1,9 @@
-#ifndef WF_CONVERT_CHECK_CHECKS_H
-#define WF_CONVERT_CHECK_CHECKS_H
+#ifndef WF_CONVERT_CHECK_VERIFY_CHECKS_H
+#define WF_CONVERT_CHECK_VERIFY_CHECKS_H
 
 #include <stddef.h>
 
-#include "convert/check/subject.h"
+#include "convert/check/verify/subject.h"
 
 /* Findings that a verification has capacity for: at least the rows of `checks` (checks.c). */
 #define WF_FINDINGS_MOST 64

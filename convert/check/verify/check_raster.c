@@ -1,5 +1,5 @@
 /* Checks: what the file says of its pictures, against its raster. */
-#include "convert/check/check_raster.h"
+#include "convert/check/verify/check_raster.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -42,12 +42,17 @@ static const char *wanted_order(const wf_subject *s) {
     return order_text(s->raster.scan == WF_INTERLACED, s->raster.top_first);
 }
 
+/* Progressive pictures may go without saying so; fields do not. Film with repeated fields is
+ * progressive pictures in the fields of its raster. */
 wf_verdict wf_check_flags(const wf_subject *s, wf_finding *f) {
     const wf_video_info *v = &s->figures.info;
     bool known = s->contained ? s->metadata.scan_known : v->scan_known;
     bool interlaced = s->contained ? s->metadata.interlaced : v->raster.scan == WF_INTERLACED;
     bool top_first = s->contained ? s->metadata.top_first : v->raster.top_first;
     const char *is = known ? order_text(interlaced, top_first) : "not said";
+    if (!known && s->raster.scan != WF_INTERLACED) return wf_open_question(f, is);
+    if (s->contained && s->metadata.there.repeated)
+        return wf_open_question(f, "progressive, with repeated fields");
     return wf_say(f, !strcmp(is, wanted_order(s)), is, wanted_order(s));
 }
 
@@ -73,6 +78,30 @@ static wf_rational picture_aspect(const wf_raster *r) {
     return wf_ratio(r->width_px * r->pixel_aspect.num, r->lines * r->pixel_aspect.den);
 }
 
+/* Pixels that others give to 4:3 pictures of 601: of 704, 702, 711 or all 720 samples of a
+ * line. Of 16:9 they are 4/3 as wide. */
+static const struct {
+    int lines;
+    wf_rational pixel;
+} narrow_pixels[] = {
+    {480, {10, 11}}, {480, {8, 9}},   {480, {9, 10}},  {480, {4320, 4739}}, {480, {160, 177}},
+    {486, {10, 11}}, {486, {9, 10}},  {486, {8, 9}},   {486, {4320, 4739}}, {486, {160, 177}},
+    {576, {12, 11}}, {576, {16, 15}}, {576, {59, 54}}, {576, {128, 117}},
+};
+
+/* Whether another maker means the raster's shape by these pixels. */
+static bool is_customary(const wf_subject *s, wf_rational have) {
+    bool wide = wf_ratio_value(s->raster.pixel_aspect) > 1.15;
+    if (!of_601(&s->raster) || s->raster.width_px != 720) return false;
+    for (size_t i = 0; i < sizeof narrow_pixels / sizeof *narrow_pixels; i++) {
+        wf_rational pixel = narrow_pixels[i].pixel;
+        if (wide) pixel = wf_ratio(4 * pixel.num, 3 * pixel.den);
+        if (narrow_pixels[i].lines == s->raster.lines && wf_ratio_equal(have, pixel))
+            return true;
+    }
+    return false;
+}
+
 wf_verdict wf_check_aspect(const wf_subject *s, wf_finding *f) {
     char is[32] = "none", should[48];
     bool mxf = s->contained && !strcmp(s->metadata.container, "mxf");
@@ -85,6 +114,8 @@ wf_verdict wf_check_aspect(const wf_subject *s, wf_finding *f) {
     }
     if (have.den) snprintf(is, sizeof is, "%" PRId64 ":%" PRId64, have.num, have.den);
     snprintf(should, sizeof should, "%" PRId64 ":%" PRId64, want.num, want.den);
+    if (have.den && !wf_ratio_equal(have, want) && is_customary(s, have))
+        return wf_open_question(f, is);
     bool square = !have.den && want.num == want.den; /* what is not said is 1:1 */
     return wf_say(f, square || (have.den && wf_ratio_equal(have, want)), is, should);
 }
@@ -103,6 +134,7 @@ wf_verdict wf_check_colors(const wf_subject *s, wf_finding *f) {
     char is[48] = "not said", should[48];
     wf_color_tags have = s->metadata.tags, own = wf_color_tags_of("", s->raster.matrix);
     bool right = false;
+    if (!s->metadata.tagged && !s->profile && !s->raster_asked) return wf_open_question(f, is);
     if (s->metadata.tagged)
         snprintf(is, sizeof is, "%d-%d-%d", have.primaries, have.transfer, have.matrix);
     snprintf(should, sizeof should, "%d-%d-%d (%s)", own.primaries, own.transfer, own.matrix,
@@ -110,5 +142,8 @@ wf_verdict wf_check_colors(const wf_subject *s, wf_finding *f) {
     for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++)
         right |= s->metadata.tagged &&
                  same_tags(have, wf_color_tags_of(spaces[i], s->raster.matrix));
+    /* 625 lines were made for a display of gamma 2.8, and some call them so. */
+    bool of_old = own.primaries == 5 && have.primaries == 5 && have.transfer == 5;
+    if (!right && of_old && s->metadata.tagged) return wf_open_question(f, is);
     return wf_say(f, right, is, should);
 }

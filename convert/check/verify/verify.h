@@ -1,8 +1,8 @@
-#ifndef WF_CONVERT_CHECK_VERIFY_H
-#define WF_CONVERT_CHECK_VERIFY_H
+#ifndef WF_CONVERT_CHECK_VERIFY_VERIFY_H
+#define WF_CONVERT_CHECK_VERIFY_VERIFY_H
 
-#include "convert/check/checks.h"
-#include "convert/check/profiles.h"
+#include "convert/check/verify/checks.h"
+#include "convert/check/verify/profiles.h"
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
 

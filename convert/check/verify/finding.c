@@ -1,5 +1,5 @@
 /* What checks say. */
-#include "convert/check/finding.h"
+#include "convert/check/verify/finding.h"
 
 #include <stdio.h>
 #include <string.h>

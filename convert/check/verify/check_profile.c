@@ -1,5 +1,5 @@
 /* Checks: what the profile asks for. */
-#include "convert/check/check_profile.h"
+#include "convert/check/verify/check_profile.h"
 
 #include <stdio.h>
 #include <string.h>

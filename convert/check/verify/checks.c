@@ -1,16 +1,16 @@
 /* The table of checks, and which of them a file is put to. */
-#include "convert/check/checks.h"
+#include "convert/check/verify/checks.h"
 
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "convert/check/check_container.h"
-#include "convert/check/check_pixels.h"
-#include "convert/check/check_profile.h"
-#include "convert/check/check_raster.h"
-#include "convert/check/check_time.h"
-#include "convert/check/check_whole.h"
+#include "convert/check/verify/check_container.h"
+#include "convert/check/verify/check_pixels.h"
+#include "convert/check/verify/check_profile.h"
+#include "convert/check/verify/check_raster.h"
+#include "convert/check/verify/check_time.h"
+#include "convert/check/verify/check_whole.h"
 
 /* What a file has to have for a check to apply to it, as bits. */
 enum {
@@ -18,7 +18,7 @@ enum {
     PIXELS = 1, /* they could be read */
     RASTER = 2, /* it is known */
     CONTAINER = 4,
-    MOV = 8,
+    MOV = 8, /* QuickTime, and not MP4 */
     MXF = 16,
     SOUND = 32,
     FIELDS = 64,     /* the raster is interlaced */
@@ -90,7 +90,7 @@ _Static_assert(sizeof checks / sizeof *checks <= WF_FINDINGS_MOST,
 
 /* What the file has, in the bits of a check's `applies`. */
 static unsigned nature_of(const wf_subject *s) {
-    bool mov = s->contained && !strcmp(s->metadata.container, "mov");
+    bool mov = s->structure.quicktime;
     bool mxf = s->contained && !strcmp(s->metadata.container, "mxf");
     return (s->trouble ? 0 : PIXELS) | (s->raster_known ? RASTER : 0) |
            (s->raster_known && s->raster.scan == WF_INTERLACED ? FIELDS : 0) |

@@ -1,7 +1,7 @@
-#ifndef WF_CONVERT_CHECK_CHECK_PROFILE_H
-#define WF_CONVERT_CHECK_CHECK_PROFILE_H
+#ifndef WF_CONVERT_CHECK_VERIFY_CHECK_PROFILE_H
+#define WF_CONVERT_CHECK_VERIFY_CHECK_PROFILE_H
 
-#include "convert/check/subject.h"
+#include "convert/check/verify/subject.h"
 
 /* What the profile asks for. */
 wf_check_fn wf_check_container, wf_check_codec, wf_check_bits, wf_check_channels,
