@@ -74,9 +74,10 @@ static void tell_changes(const weft_job *job, const wf_setup *s) {
 }
 
 static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full) {
+    s->raster = job->raster;
     s->output_options = (wf_output_options){
         .output = job->output,
-        .raster = &job->raster,
+        .raster = &s->raster,
         .layout = s->output.kind->layout,
         .bits = s->output.kind->layout == WF_LINEAR ? 32 : bits,
         .full_range = full,
@@ -125,9 +126,16 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     return status;
 }
 
+/* The matrix that goes with the colors of the codes. */
+static void settle_matrix(wf_setup *s) {
+    s->raster.matrix = wf_color_matrix_of(s->color_space, s->raster.matrix);
+    s->encoding.luma = wf_colors_of(s->raster.matrix)->luma;
+}
+
 weft_status wf_setup_output(const weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = settle_sink(job, s, err);
     if (!status) status = wf_setup_color(job, s, err);
+    settle_matrix(s);
     return status ? status : wf_setup_display(job, s, err);
 }
 

@@ -25,6 +25,7 @@ typedef struct wf_setup {
     wf_rational sound_s; /* when frame 0 begins, on the clock of the input's sound; {0, 0}: 0 */
     bool retimed;        /* the source shows pictures at another speed than that sound has */
 
+    wf_raster raster; /* of what is written: the job's, with the matrix of the codes */
     wf_output output;
     wf_output_options output_options;
     char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */

@@ -39,11 +39,16 @@ bool wf_color_has_tags(const char *space) {
     return find_tags(space) < TAGGED;
 }
 
+wf_matrix wf_color_matrix_of(const char *space, wf_matrix of_raster) {
+    return space && !strncmp(space, "rec2100-", 8) ? WF_2020 : of_raster;
+}
+
 /* Both systems of Rec. BT.601 have one matrix, whose code point is 6 in QuickTime. */
 wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix) {
     static const int matrices[] = {
         [WF_601_525] = 6, [WF_601_625] = 6, [WF_709] = 1, [WF_2020] = 9};
     size_t found = find_tags(space);
+    matrix = wf_color_matrix_of(space, matrix);
     if (found == TAGGED) found = find_tags(wf_colors_of(matrix)->space);
     return (wf_color_tags){tagged[found].primaries, tagged[found].transfer, matrices[matrix]};
 }

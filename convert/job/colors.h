@@ -22,7 +22,11 @@ typedef struct wf_color_tags {
 /* Whether a space is one that has code points. */
 bool wf_color_has_tags(const char *space);
 
-/* The tags of codes that are in a space of color/weft.ocio, with the raster's Y'CbCr. For a
+/* The Y'CbCr of codes that are in a space: Rec. ITU-R BT.2100 has that of BT.2020, whatever the
+ * raster; in any other space codes have the raster's. */
+wf_matrix wf_color_matrix_of(const char *space, wf_matrix of_raster);
+
+/* The tags of codes that are in a space of color/weft.ocio, with their Y'CbCr. For a
  * space that has no code points they are the raster's own. */
 wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix);
 

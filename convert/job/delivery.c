@@ -69,6 +69,16 @@ static const wf_delivery_form dv_forms[] = {
     {SIZE(720, 576), SCAN(BOTTOM, WF_RATE_25)},
 };
 
+/* What players decode is 4:2:0 of 8 bits; what is edited on is 4:2:2 of 10. */
+static const wf_delivery_form h264_forms[] = {
+    {.scans = ANY_SCAN, .bits = 8, .folds_chroma = true, .options = "profile=high"},
+    {SIZE(720, 486), .scans = WF_SCAN_BOTTOM, .bits = 8, .skip_lines = 4, .kept_lines = 480,
+     .folds_chroma = true, .options = "profile=high"},
+    {SIZE(720, 486), .scans = WF_SCAN_TOP, .bits = 8, .skip_lines = 5, .kept_lines = 480,
+     .folds_chroma = true, .options = "profile=high"},
+    {.scans = ANY_SCAN, .bits = 10, .options = "profile=high422"},
+};
+
 /* ---- Codecs ---- */
 
 #define BITS(n) (1u << (n))
@@ -116,9 +126,14 @@ static const wf_delivery_form dv_forms[] = {
 #define AVCI                                                                                   \
     .encoder = "libx264", .encoder_options = "avcintra-class=100", FORMS(avci_forms),          \
     .threads = 1
+/* With another number of threads x264 chooses otherwise. */
+#define H264                                                                                   \
+    .encoder = "libx264", .encoder_options = "preset=medium:crf=16", FORMS(h264_forms),        \
+    .pictures_a_group = 24, .threads = 4
 #define MOV .muxer = "mov", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
 #define MXF .muxer = "mxf", .sound_bytes = BITS(2) | BITS(3)
 #define MKV .muxer = "matroska", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
+#define MP4 .muxer = "mp4"
 
 static const wf_delivery rows[] = {
     {KIND("v210", "mov", "uncompressed, 10 bits", BITS(10), 10, true), MOV, V210},
@@ -135,6 +150,11 @@ static const wf_delivery rows[] = {
     {KIND("xdcamhd422", "mov", "MPEG-2 4:2:2 of 50 Mb/s", BITS(8), 8, true), MOV, XDCAM},
     {KIND("dvcpro50", "mov", "DV of 50 Mb/s", BITS(8), 8, true), MOV, DVCPRO},
     {KIND("avci100", "mov", "AVC-Intra 100", BITS(10), 10, true), MOV, AVCI},
+    {KIND("h264", "mov", "H.264, 4:2:0 of 8 bits or 4:2:2 of 10", BITS(8) | BITS(10), 8, true),
+     MOV, H264},
+
+    {KIND("h264", "mp4", "H.264, 4:2:0 of 8 bits or 4:2:2 of 10", BITS(8) | BITS(10), 8, true),
+     MP4, H264},
 
     {KIND("xdcamhd422", "mxf", "MPEG-2 4:2:2 of 50 Mb/s", BITS(8), 8, true), MXF, XDCAM},
     {KIND("dnxhd", "mxf", "DNxHD", BITS(8) | BITS(10), 10, true), MXF, DNXHD},
@@ -243,15 +263,24 @@ static unsigned scan_of(const wf_raster *raster) {
     return raster->top_first ? WF_SCAN_TOP : WF_SCAN_BOTTOM;
 }
 
+/* In 4:2:0 a field has half as many rows of chroma as lines. */
+static bool folds(const wf_delivery_form *form, const wf_raster *r) {
+    int lines = form->kept_lines ? form->kept_lines : r->lines;
+    return !form->folds_chroma || lines % (r->scan == WF_INTERLACED ? 4 : 2) == 0;
+}
+
 static bool fits(const wf_delivery_form *form, const wf_raster *r) {
-    return (!form->width_px || (form->width_px == r->width_px && form->lines == r->lines)) &&
+    return folds(form, r) &&
+           (!form->width_px || (form->width_px == r->width_px && form->lines == r->lines)) &&
            form->scans & scan_of(r) && rate_fits(form->rates, r->frame_rate);
 }
 
 static void tell_form(const wf_delivery_form *form, char *text, size_t size) {
     snprintf(text, size, "%s",
-             form->scans == WF_SCAN_WHOLE ? "progressive rasters of any size"
-                                          : "rasters of any size and scan");
+             form->folds_chroma ? "frames of an even number of lines, 4:2:0; interlaced "
+                                  "ones of a multiple of four, or --bits 10, 4:2:2"
+             : form->scans == WF_SCAN_WHOLE ? "progressive rasters of any size"
+                                            : "rasters of any size and scan");
 }
 
 static const wf_delivery_form *find_form(const wf_delivery *delivery, const wf_raster *raster,
@@ -335,6 +364,11 @@ weft_status wf_delivery_check_sound(const wf_delivery *d, const wf_output_option
     const wf_sound_feed *sound = &o->sound;
     bool grouped = d->one_audio_stream;
     bool groups = grouped && (sound->tracks % 4 || sound->tracks > 8);
+    if (sound->tracks && !d->sound_bytes)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "%.500s: sound is not written into .%s; leave out --audio, or write .mov",
+            o->output, d->kind.endings);
     if (sound->tracks > WF_SOUND_TRACKS || groups)
         return wf_fail(
             err, WEFT_USAGE,
@@ -356,8 +390,8 @@ int wf_delivery_sound_tracks(const wf_delivery *d, int channels) {
 wf_delivery_mark wf_delivery_quicktime(const wf_delivery *delivery, const wf_raster *raster) {
     static const struct {
         const char *codec;
-        int lines;
-        unsigned scan, rates;
+        int lines;            /* 0: any */
+        unsigned scan, rates; /* 0: any */
         wf_delivery_mark mark;
     } marks[] = {
         {"xdcamhd422", 1080, FIELDS, WF_RATE_25, {"xd5c", "XDCAM HD422 1080i50"}},
@@ -374,9 +408,12 @@ wf_delivery_mark wf_delivery_quicktime(const wf_delivery *delivery, const wf_ras
         {"avci100", 1080, WF_SCAN_WHOLE, WF_RATE_29_97, {"ai13", "AVC-Intra 100 1080p30"}},
         {"avci100", 720, WF_SCAN_WHOLE, WF_RATE_50, {"ai1q", "AVC-Intra 100 720p50"}},
         {"avci100", 720, WF_SCAN_WHOLE, WF_RATE_59_94, {"ai1p", "AVC-Intra 100 720p60"}},
+        /* libavformat takes 4:2:2 of 10 bits for AVC-Intra. */
+        {"h264", 0, ANY_SCAN, 0, {"avc1", "H.264"}},
     };
     for (size_t i = 0; i < COUNT(marks); i++)
-        if (!strcmp(delivery->kind.name, marks[i].codec) && raster->lines == marks[i].lines &&
+        if (!strcmp(delivery->kind.name, marks[i].codec) &&
+            (!marks[i].lines || raster->lines == marks[i].lines) &&
             marks[i].scan & scan_of(raster) && rate_fits(marks[i].rates, raster->frame_rate))
             return marks[i].mark;
     return (wf_delivery_mark){"", NULL};

@@ -17,6 +17,7 @@ typedef struct wf_delivery_form {
     int kept_lines;      /* of what is left; 0: all */
     int above_lines;     /* of the vertical interval, black, coded above the picture */
     int64_t stated_rate; /* where the container is told another than the encoder; 0: the same */
+    bool folds_chroma;   /* to 4:2:0 (color/codes/chroma_420.h); false: as it comes */
     const char *options; /* the encoder's, beside those of the delivery; NULL: none */
 } wf_delivery_form;
 

@@ -163,7 +163,8 @@ static const wf_option_row rows[] = {
         set_choice, AT(legalize), INITIAL),
 
     ROW(files, VIDEO, "codec", "NAME", "the container's",
-        "What .mov, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, ffv1 and others; a "
+        "What .mov, .mp4, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, h264 and "
+        "others; a "
         "wrong name lists them.",
         set_codec, TEXT(codec)),
     ROW(files, VIDEO, "audio", "none|copy|FILE[:OFFSET]|silent:N|tone:N", "none",

@@ -25,6 +25,7 @@ typedef struct wf_report_legal {
 typedef struct wf_report {
     const char *command;     /* "convert" */
     const wf_raster *raster; /* NULL: "raster" is {} */
+    wf_raster coded;         /* what raster may lie in: as it is in the file */
     int64_t frames, fields;  /* written by this run */
 
     int64_t listed, opened; /* subframes selected, missing ones included; files opened */

@@ -23,6 +23,7 @@ typedef struct wf_contents {
  * looked up in pixels. */
 typedef struct wf_metadata {
     char container[16]; /* libavformat's name: "mov", "mxf", "matroska" */
+    bool of_mpeg4;      /* "mov" with the brand of MP4 and its kin, not of QuickTime */
     char codec[24], profile[48], pixels[24];
     int level;            /* of the codec, as libavcodec numbers it */
     char sound_codec[24]; /* of the first stream of sound */

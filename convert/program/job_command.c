@@ -132,7 +132,7 @@ static const char output[] = "Output and messages";
 
 const wf_cmd_option wf_job_command_options[WF_JOB_COMMAND_OPTIONS] = {
     {{"output", "OUTPUT", NULL,
-      "Where to write: .y4m, .v210, .uyvy, .mov, .mxf, .mkv, or a sequence such as "
+      "Where to write: .y4m, .v210, .uyvy, .mov, .mp4, .mxf, .mkv, or a sequence such as "
       "out.####.dpx "
       "(exr, tif, png); - is Y4M on standard output.",
       output},

@@ -128,6 +128,8 @@ static void tell(const wf_run *run) {
     wf_report *report = run->report;
     wf_worker times = wf_crew_times(&run->crew);
     report->legal = wf_setup_legal(run->job, &run->setup);
+    report->coded = run->setup.raster;
+    if (run->setup.output.kind) report->raster = &report->coded;
     report->frames = run->crew.done;
     report->fields = run->crew.done * wf_raster_fields_per_frame(&run->job->raster);
     report->resample_s = times.resample_s;

@@ -86,14 +86,14 @@ wf_output wf_output_for(const char *name, const char *codec, weft_error *err) {
     if (output && !codec) return *output;
     if (output)
         wf_fail(err, WEFT_USAGE,
-                "--codec %.100s: %.500s is %s, which has no codec; it is for .mov, .mxf and "
-                ".mkv",
+                "--codec %.100s: %.500s is %s, which has no codec; it is for .mov, .mp4, .mxf "
+                "and .mkv",
                 codec, name, output->kind->name);
     if (output || container) return (wf_output){0};
     list_outputs(there, sizeof there);
     wf_fail(err, WEFT_USAGE,
             "%.500s: the name of an output says what it is, and this one does not; there are "
-            "%s, out.mov, out.mxf, out.mkv, and - for Y4M on standard output",
+            "%s, out.mov, out.mp4, out.mxf, out.mkv, and - for Y4M on standard output",
             name, there);
     return (wf_output){0};
 }

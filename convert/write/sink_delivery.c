@@ -41,6 +41,10 @@ static void tell(const wf_output_options *o, char *text, size_t size) {
     const wf_delivery *d = delivery_of(o);
     const wf_delivery_form *form = wf_delivery_form_for(d, o, NULL);
     *text = '\0';
+    if (form && form->folds_chroma)
+        snprintf(text, size,
+                 "%.200s: chroma is 4:2:0, which every player takes; --bits 10 is 4:2:2",
+                 o->output);
     if (!form || !form->kept_lines) return;
     wf_raster kept = wf_delivery_raster(form, o->raster);
     snprintf(text, size,

@@ -17,6 +17,8 @@ wf_verdict wf_check_fiel(const wf_subject *s, wf_finding *f) {
         return wf_open_question(f, "none, and the stream itself says its order");
     if (s->metadata.there.repeated) return wf_open_question(f, "its fields are repeated");
     bool left_out = !s->metadata.has_fiel && !interlaced;
+    if (!s->metadata.has_fiel && s->metadata.of_mpeg4)
+        return wf_open_question(f, "none, which ISO/IEC 14496-12 does not know");
     return wf_say(f, left_out || !strcmp(is, should), is, should);
 }
 

@@ -123,8 +123,9 @@ wf_verdict wf_check_aspect(const wf_subject *s, wf_finding *f) {
 static bool same_tags(wf_color_tags a, wf_color_tags b) {
     bool both_601 = (a.matrix == 5 || a.matrix == 6) && (b.matrix == 5 || b.matrix == 6);
     /* 1, 6, 14 and 15 are one curve (Rec. ITU-T H.273). */
-    bool one_curve = (a.transfer == 1 || a.transfer == 6 || a.transfer > 13) &&
-                     (b.transfer == 1 || b.transfer == 6 || b.transfer == 14);
+    bool one_curve =
+        (a.transfer == 1 || a.transfer == 6 || a.transfer == 14 || a.transfer == 15) &&
+        (b.transfer == 1 || b.transfer == 6 || b.transfer == 14);
     return a.primaries == b.primaries && (a.transfer == b.transfer || one_curve) &&
            (a.matrix == b.matrix || both_601);
 }

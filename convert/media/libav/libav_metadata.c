@@ -105,6 +105,8 @@ static weft_status read_format(AVFormatContext *format, const char *path, wf_met
     if (video < 0) return wf_fail(err, WEFT_FAILED, "%.700s: it holds no video", path);
     size_t first = strcspn(format->iformat->name, ",");
     snprintf(c->container, sizeof c->container, "%.*s", (int)first, format->iformat->name);
+    const AVDictionaryEntry *brand = av_dict_get(format->metadata, "major_brand", NULL, 0);
+    c->of_mpeg4 = brand && strcmp(brand->value, "qt  ");
     read_video(format->streams[video], c);
     if (format->duration_estimation_method != AVFMT_DURATION_FROM_STREAM) c->video_s = 0;
     read_timecode(format->metadata, c);

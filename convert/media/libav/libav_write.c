@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color/codes/chroma_420.h"
 #include "convert/job/colors.h"
 #include "convert/job/timecode.h"
 #include "convert/media/container.h"
@@ -66,9 +67,10 @@ static void close_file(wf_writing *w) {
 
 /* ---- The encoder ---- */
 
-static enum AVPixelFormat pixels_of(const wf_output_options *o) {
+static enum AVPixelFormat pixels_of(const wf_writing *w) {
+    const wf_output_options *o = &w->options;
     char name[32];
-    const char *sampling = o->subsampled ? "422" : "444";
+    const char *sampling = w->form->folds_chroma ? "420" : o->subsampled ? "422" : "444";
     if (o->bits == 8)
         snprintf(name, sizeof name, "yuv%sp", sampling);
     else
@@ -109,7 +111,7 @@ static void describe_codec(wf_writing *w, AVCodecContext *c) {
     c->time_base = av_inv_q(ratio(r->frame_rate));
     c->framerate = ratio(r->frame_rate);
     c->sample_aspect_ratio = ratio(r->pixel_aspect);
-    c->pix_fmt = pixels_of(&w->options);
+    c->pix_fmt = pixels_of(w);
     c->field_order = coded_order_of(w);
     tag_codec(w, c);
     if (interlaced) c->flags |= AV_CODEC_FLAG_INTERLACED_DCT;
@@ -134,6 +136,9 @@ static int read_options(const wf_writing *w, AVDictionary **options) {
     /* MPEG-2 states a timecode in its groups of pictures, beside that of the container. */
     if (code >= 0 && !strcmp(w->delivery->encoder, "mpeg2video"))
         code = av_dict_set(options, "gop_timecode", w->options.timecode, 0);
+    /* x264 takes the order from here alone: told of frames that differ, it says top first. */
+    if (code >= 0 && !strcmp(w->delivery->kind.name, "h264") && w->raster.scan == WF_INTERLACED)
+        code = av_dict_set(options, "x264-params", w->raster.top_first ? "tff=1" : "bff=1", 0);
     return code;
 }
 
@@ -206,6 +211,8 @@ static weft_status make_frame(wf_writing *w, weft_error *err) {
     f->height = w->codec->height;
     f->format = w->codec->pix_fmt;
     int code = av_frame_get_buffer(f, 0);
+    w->row = malloc((size_t)w->raster.width_px * sizeof *w->row);
+    if (!w->row) code = AVERROR(ENOMEM);
     return code < 0 ? wf_writing_failed(w, "no memory for a frame", code, err) : WEFT_OK;
 }
 
@@ -236,9 +243,27 @@ static void put_black(uint8_t *to, int plane, int count, const wf_output_options
         put_line(to + i * (o->bits > 8 ? 2 : 1), &code, 1, o->bits > 8);
 }
 
+/* Codes 0 and the highest of 8 bits are for synchronizing (Rec. ITU-R BT.601), and those that
+ * begin with the same bits. */
+static void fold_chroma(const wf_writing *w, const wf_frame *frame, int p) {
+    const wf_output_options *o = &w->options;
+    int count = w->raster.width_px / 2, one = 1 << (o->bits - 8);
+    bool woven = w->raster.scan == WF_INTERLACED;
+    for (int row = 0; row < w->raster.lines / 2; row++) {
+        uint8_t *to = w->frame->data[p] + (ptrdiff_t)row * w->frame->linesize[p];
+        wf_chroma_420_row((const uint16_t *)frame->plane[p], frame->stride[p], w->raster.lines,
+                          count, row, woven, one, 255 * one - 1, w->row);
+        put_line(to, w->row, count, o->bits > 8);
+    }
+}
+
 static void take_frame(const wf_writing *w, const wf_frame *frame) {
     const wf_output_options *o = &w->options;
     for (int p = 0; p < 3; p++) {
+        if (p && w->form->folds_chroma) {
+            fold_chroma(w, frame, p);
+            continue;
+        }
         int width = p && o->subsampled ? w->raster.width_px / 2 : w->raster.width_px;
         for (int y = 0; y < w->raster.lines; y++) {
             uint8_t *to = w->frame->data[p] + (ptrdiff_t)y * w->frame->linesize[p];
@@ -285,6 +310,7 @@ static void release(wf_writing *w) {
     av_frame_free(&w->frame);
     av_packet_free(&w->packet);
     close_file(w);
+    free(w->row);
     free(w);
 }
 

@@ -34,6 +34,7 @@ typedef struct wf_writing {
     AVStream *stream;
     AVFrame *frame;
     AVPacket *packet;
+    uint16_t *row; /* [raster.width_px] */
     wf_written_sound sound;
     int64_t frames;
 } wf_writing;

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "color/codes/chroma_420.h"
 #include "color/codes/encode.h"
 #include "color/line/line.h"
 
@@ -192,6 +193,53 @@ static void a_flat_line_stays_flat(void **state) {
     }
 }
 
+/* ---- 4:2:0 ---- */
+
+enum { ROWS = 64, ACROSS = 3 };
+
+/* Codes of a straight slope down the frame, 100 a line: a row of 4:2:0 is the slope at its
+ * place, in lines of the frame, but near the edges. */
+static void rows_of_420_lie_where_they_belong(void **state) {
+    (void)state;
+    static uint16_t code[ROWS][ACROSS];
+    uint16_t row[ACROSS];
+    for (int y = 0; y < ROWS; y++)
+        for (int x = 0; x < ACROSS; x++) code[y][x] = (uint16_t)(20000 + 100 * y + 7 * x);
+    for (int woven = 0; woven < 2; woven++)
+        for (int k = 4; k < ROWS / 2 - 4; k++) {
+            double place = 2 * k + 0.5; /* of a frame */
+            if (woven) place = 4 * (k / 2) + (k % 2 ? 2.5 : 0.5);
+            wf_chroma_420_row(code[0], ACROSS, ROWS, ACROSS, k, woven, 1, 65000, row);
+            for (int x = 0; x < ACROSS; x++)
+                assert_true(fabs(row[x] - (20000 + 100 * place + 7 * x)) <= 4);
+        }
+}
+
+/* What alternates from line to line of its field is gone, what does not change stays, and
+ * nothing leaves the range. */
+static void rows_of_420_are_filtered(void **state) {
+    (void)state;
+    static uint16_t code[ROWS][ACROSS];
+    uint16_t row[ACROSS];
+    for (int woven = 0; woven < 2; woven++) {
+        for (int y = 0; y < ROWS; y++)
+            for (int x = 0; x < ACROSS; x++) {
+                int line = woven ? y / 2 : y;
+                code[y][x] = (uint16_t)(x == 0   ? 512
+                                        : x == 1 ? 512 + (line % 2 ? -400 : 400)
+                                        : y < 32 ? 4
+                                                 : 1019);
+            }
+        for (int k = 0; k < ROWS / 2; k++) {
+            wf_chroma_420_row(code[0], ACROSS, ROWS, ACROSS, k, woven, 4, 1019, row);
+            assert_int_equal(row[0], 512);
+            bool inner = k >= 8 && k < ROWS / 2 - 8;
+            if (inner) assert_true(abs(row[1] - 512) <= 12);
+            assert_in_range(row[2], 4, 1019);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taps_add_up_to_one),
@@ -201,6 +249,8 @@ int main(void) {
         cmocka_unit_test(gratings_of_the_cheap_ones),
         cmocka_unit_test(edges_and_widths),
         cmocka_unit_test(a_flat_line_stays_flat),
+        cmocka_unit_test(rows_of_420_lie_where_they_belong),
+        cmocka_unit_test(rows_of_420_are_filtered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

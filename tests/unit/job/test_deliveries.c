@@ -102,14 +102,16 @@ static void every_codec_takes_some_raster(void **state) {
         }
 }
 
-/* Codes of the sample description for all that XDCAM and AVC-Intra take in QuickTime, none for
- * others, each for one raster alone (but psf is p, and ai13 is 24 and 30). */
+/* Codes of the sample description for all that XDCAM and AVC-Intra take in QuickTime, each for
+ * one raster alone (but psf is p, and ai13 is 24 and 30); one for all of H.264, none for
+ * others. */
 static void codes_of_quicktime(void **state) {
     (void)state;
     const wf_delivery *d;
     const wf_raster *r;
     for (size_t i = 0; (d = wf_delivery_at(i)); i++) {
-        bool has = !strcmp(d->kind.name, "xdcamhd422") || !strcmp(d->kind.name, "avci100");
+        bool has = !strcmp(d->kind.name, "xdcamhd422") || !strcmp(d->kind.name, "avci100") ||
+                   !strcmp(d->kind.name, "h264");
         for (size_t n = 0; (r = wf_raster_at(n)); n++) {
             if (!form_of(d, r, d->kind.default_bits, NULL)) continue;
             wf_delivery_mark mark = wf_delivery_quicktime(d, r);
@@ -157,7 +159,8 @@ static void code_points(void **state) {
     } rows[] = {
         {"rec601-525", WF_601_525, 6, 1, 6},  {"rec601-625", WF_601_625, 5, 1, 6},
         {"rec709", WF_709, 1, 1, 1},          {"rec2020", WF_2020, 9, 14, 9},
-        {"rec2100-pq", WF_2020, 9, 16, 9},    {"rec2100-hlg", WF_2020, 9, 18, 9},
+        {"rec2100-pq", WF_2020, 9, 16, 9},    {"rec2100-hlg", WF_709, 9, 18, 9},
+        {"rec2100-pq", WF_601_625, 9, 16, 9}, {"rec2020", WF_709, 9, 14, 1},
         {"rec709-camera", WF_709, 1, 1, 1},   {"", WF_601_625, 5, 1, 6},
         {"someone's own", WF_2020, 9, 14, 9}, {NULL, WF_709, 1, 1, 1},
     };
