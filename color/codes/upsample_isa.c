@@ -13,7 +13,7 @@ static void signals(float *restrict signal, const uint16_t *restrict code, doubl
 }
 
 /* Vectors side by side, so that no sum waits for another. */
-enum { BESIDE = 2 };
+enum { BESIDE = 4 };
 
 /* Taps k, k + by, .. up to but not with `end`. */
 static inline void add_taps(lanes sum[BESIDE], const float *from, ptrdiff_t step,

@@ -3,16 +3,42 @@
 #include "convert/finish/crew.h"
 
 #include <math.h>
-#include <omp.h>
+#include <pthread.h>
+#include <sched.h>
 #include <stdlib.h>
 
 #include "convert/base/clock.h"
+
+/* Threads wait for work without spinning: whoever reads video has threads of its own, which
+ * would have to wait for those that spin. */
+struct wf_pool {
+    pthread_mutex_t lock;
+    pthread_cond_t begun, done, taken; /* of in_order, `taken` */
+    pthread_t *thread;
+    struct helper *helper;
+    int helpers, busy;
+    int64_t round; /* of work: each helper takes part in each once */
+    bool ends;
+    void (*run)(void *what, wf_worker *worker);
+    void *what;
+};
+
+typedef struct helper {
+    struct wf_pool *pool;
+    wf_worker *worker;
+} helper;
+
+static int processors(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set)) return 1;
+    return CPU_COUNT(&set);
+}
 
 weft_status wf_crew_new(weft_job *job, int threads, wf_crew *crew, weft_error *err) {
     int asked = threads > 0 ? threads : job->threads;
     *crew = (wf_crew){.job = job, .began_s = wf_now_s()};
     crew->told_s = crew->began_s;
-    crew->threads = asked > 0 ? asked : omp_get_num_procs();
+    crew->threads = asked > 0 ? asked : processors();
     crew->workers = calloc((size_t)crew->threads, sizeof *crew->workers);
     if (!crew->workers)
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for %d threads", crew->threads);
@@ -20,32 +46,170 @@ weft_status wf_crew_new(weft_job *job, int threads, wf_crew *crew, weft_error *e
     return WEFT_OK;
 }
 
+/* ---- The threads ---- */
+
+static void *help(void *user) {
+    const helper *h = user;
+    struct wf_pool *p = h->pool;
+    pthread_mutex_lock(&p->lock);
+    for (int64_t seen = 0;;) {
+        while (!p->ends && p->round == seen) pthread_cond_wait(&p->begun, &p->lock);
+        if (p->ends) break;
+        seen = p->round;
+        pthread_mutex_unlock(&p->lock);
+        p->run(p->what, h->worker);
+        pthread_mutex_lock(&p->lock);
+        if (!--p->busy) pthread_cond_signal(&p->done);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+static void free_pool(struct wf_pool *p) {
+    if (!p) return;
+    pthread_mutex_lock(&p->lock);
+    p->ends = true;
+    pthread_cond_broadcast(&p->begun);
+    pthread_mutex_unlock(&p->lock);
+    for (int t = 0; t < p->helpers; t++) pthread_join(p->thread[t], NULL);
+    pthread_cond_destroy(&p->taken);
+    pthread_cond_destroy(&p->done);
+    pthread_cond_destroy(&p->begun);
+    pthread_mutex_destroy(&p->lock);
+    free(p->thread);
+    free(p->helper);
+    free(p);
+}
+
+/* As many helpers as can be had: with none the caller does all the work. */
+static struct wf_pool *pool_of(wf_crew *crew) {
+    struct wf_pool *p = crew->pool;
+    if (p) return p;
+    p = crew->pool = calloc(1, sizeof *p);
+    if (!p) return NULL;
+    pthread_mutex_init(&p->lock, NULL);
+    pthread_cond_init(&p->begun, NULL);
+    pthread_cond_init(&p->done, NULL);
+    pthread_cond_init(&p->taken, NULL);
+    p->thread = calloc((size_t)crew->threads, sizeof *p->thread);
+    p->helper = calloc((size_t)crew->threads, sizeof *p->helper);
+    for (int t = 1; p->thread && p->helper && t < crew->threads; t++) {
+        helper *h = &p->helper[p->helpers];
+        *h = (helper){p, &crew->workers[t]};
+        if (pthread_create(&p->thread[p->helpers], NULL, help, h)) break;
+        p->helpers++;
+    }
+    return p;
+}
+
 void wf_crew_free(wf_crew *crew) {
+    free_pool(crew->pool);
     free(crew->workers);
     *crew = (wf_crew){0};
 }
 
+/* Has all workers run, and waits for them. */
+static void all_run(wf_crew *crew, void (*run)(void *what, wf_worker *worker), void *what) {
+    struct wf_pool *p = crew->threads > 1 ? pool_of(crew) : NULL;
+    if (p) {
+        pthread_mutex_lock(&p->lock);
+        p->run = run;
+        p->what = what;
+        p->busy = p->helpers;
+        p->round++;
+        pthread_cond_broadcast(&p->begun);
+        pthread_mutex_unlock(&p->lock);
+    }
+    run(what, &crew->workers[0]);
+    if (!p) return;
+    pthread_mutex_lock(&p->lock);
+    while (p->busy) pthread_cond_wait(&p->done, &p->lock);
+    pthread_mutex_unlock(&p->lock);
+}
+
 /* ---- Work ---- */
 
+typedef struct pieces {
+    wf_crew *crew;
+    atomic_int next;
+    int count, together;
+    wf_crew_work *work;
+    wf_crew_make *make;
+    wf_crew_take *take;
+    int taken; /* under the pool's lock */
+    void *user;
+} pieces;
+
+static void run_pieces(void *what, wf_worker *worker) {
+    pieces *p = what;
+    for (int first; (first = atomic_fetch_add(&p->next, p->together)) < p->count;)
+        for (int n = first; n < p->count && n < first + p->together; n++)
+            if (!wf_crew_stopped(p->crew)) p->work(p->user, worker, n);
+}
+
 void wf_crew_each(wf_crew *crew, int count, int together, wf_crew_work *work, void *user) {
-#pragma omp parallel for num_threads(crew->threads) schedule(dynamic, together)
-    for (int n = 0; n < count; n++)
-        if (!wf_crew_stopped(crew)) work(user, &crew->workers[omp_get_thread_num()], n);
+    pieces p = {.crew = crew, .count = count, .together = together, .work = work, .user = user};
+    if (count > together)
+        all_run(crew, run_pieces, &p);
+    else
+        run_pieces(&p, &crew->workers[0]);
+}
+
+static void take_in_turn(pieces *p, wf_worker *worker, int n, void *made) {
+    struct wf_pool *pool = p->crew->pool;
+    if (pool) {
+        pthread_mutex_lock(&pool->lock);
+        while (p->taken < n) pthread_cond_wait(&pool->taken, &pool->lock);
+        pthread_mutex_unlock(&pool->lock);
+    }
+    p->take(p->user, worker, n, made);
+    if (!pool) return;
+    pthread_mutex_lock(&pool->lock);
+    p->taken++;
+    pthread_cond_broadcast(&pool->taken);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+static void run_in_order(void *what, wf_worker *worker) {
+    pieces *p = what;
+    for (int n; (n = atomic_fetch_add(&p->next, 1)) < p->count;) {
+        void *made = wf_crew_stopped(p->crew) ? NULL : p->make(p->user, worker, n);
+        take_in_turn(p, worker, n, made);
+        atomic_fetch_add(&p->crew->pieces_done, 1);
+        wf_crew_tick(p->crew, worker);
+    }
 }
 
 void wf_crew_in_order(wf_crew *crew, int count, wf_crew_make *make, wf_crew_take *take,
                       void *user) {
     crew->piece_count = count;
     atomic_store(&crew->pieces_done, 0);
-#pragma omp parallel for num_threads(crew->threads) schedule(dynamic, 1) ordered
-    for (int n = 0; n < count; n++) {
-        wf_worker *worker = &crew->workers[omp_get_thread_num()];
-        void *made = wf_crew_stopped(crew) ? NULL : make(user, worker, n);
-#pragma omp ordered
-        take(user, worker, n, made);
-        atomic_fetch_add(&crew->pieces_done, 1);
-        wf_crew_tick(crew, worker);
-    }
+    pieces p = {.crew = crew, .count = count, .make = make, .take = take, .user = user};
+    all_run(crew, run_in_order, &p);
+}
+
+/* ---- Beside the work ---- */
+
+static void *do_aside(void *user) {
+    wf_aside *a = user;
+    a->status = a->work(a->user, &a->error);
+    return NULL;
+}
+
+void wf_aside_begin(wf_aside *a, wf_aside_work *work, void *user) {
+    a->work = work;
+    a->user = user;
+    a->status = WEFT_OK;
+    a->begun = true;
+    a->apart = !pthread_create(&a->thread, NULL, do_aside, a);
+    if (!a->apart) do_aside(a);
+}
+
+weft_status wf_aside_end(wf_aside *a, weft_error *err) {
+    if (!a->begun) return WEFT_OK;
+    if (a->apart) pthread_join(a->thread, NULL);
+    a->begun = a->apart = false;
+    return a->status ? wf_fail(err, a->status, "%s", a->error.text) : WEFT_OK;
 }
 
 /* ---- How it stands ---- */

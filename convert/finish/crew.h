@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_FINISH_CREW_H
 #define WF_CONVERT_FINISH_CREW_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "convert/job/job.h"
@@ -28,6 +29,7 @@ typedef struct wf_crew {
     double part, part_share;
     int piece_count;
     atomic_int pieces_done;
+    struct wf_pool *pool; /* of threads, once there was work for them */
 } wf_crew;
 
 /* threads: 0 for what the job asks for. The job must outlive the crew. Whatever the status,
@@ -47,6 +49,24 @@ typedef void *wf_crew_make(void *user, wf_worker *worker, int n);
 typedef void wf_crew_take(void *user, wf_worker *worker, int n, void *made);
 void wf_crew_in_order(wf_crew *crew, int count, wf_crew_make *make, wf_crew_take *take,
                       void *user);
+
+/* One thing that is done on a thread of its own beside the workers' work, such as reading ahead
+ * or writing, which mostly waits. At rest it is all zeros. */
+typedef weft_status wf_aside_work(void *user, weft_error *err);
+typedef struct wf_aside {
+    wf_aside_work *work;
+    void *user;
+    pthread_t thread;
+    bool begun, apart; /* not ended yet; there was a thread for it */
+    weft_status status;
+    weft_error error;
+} wf_aside;
+
+/* Begins work(user, err), which is not to be looked at until wf_aside_end has waited for it and
+ * told how it went. Where no thread can be had it is done at once. Ending what was not begun,
+ * or has ended, is fine. One thread begins and ends. */
+void wf_aside_begin(wf_aside *aside, wf_aside_work *work, void *user);
+weft_status wf_aside_end(wf_aside *aside, weft_error *err);
 
 /* The worker has failed, with the reason in its error; its first failure is kept, and all
  * others stop at their next piece. */

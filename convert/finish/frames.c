@@ -28,6 +28,8 @@ struct wf_frames {
     int count;
     finisher *finishers; /* [threads] */
     size_t stride[3];    /* samples */
+    wf_aside writing;    /* of frame `written` */
+    wf_frame written;
     double write_s;
     wf_legal_counts legal; /* of the frames written */
     int64_t worst_outside; /* pixels of a frame that r103 left so: the most of all frames */
@@ -52,10 +54,11 @@ static size_t plane_bytes(const weft_job *job, const wf_setup *s, int c) {
     return stride_of(s, c) * (size_t)job->raster.lines * sample_bytes(s);
 }
 
-/* Fields may be finished in any order, and the first may belong to a frame begun before. */
+/* Fields may be finished in any order, the first may belong to a frame begun before, and the
+ * frame before that may still be written. */
 static int slots_for(const weft_job *job, int fields) {
     int per_frame = wf_raster_fields_per_frame(&job->raster);
-    return (fields + per_frame - 1) / per_frame + 1;
+    return (fields + per_frame - 1) / per_frame + 2;
 }
 
 size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int fields) {
@@ -106,6 +109,7 @@ weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_f
 
 void wf_frames_free(wf_frames *f) {
     if (!f) return;
+    wf_aside_end(&f->writing, NULL);
     if (f->sink) f->setup->output.ops->abandon(f->sink);
     for (int n = 0; f->slots && n < f->count; n++)
         for (int c = 0; c < 3; c++) free(f->slots[n].plane[c]);
@@ -197,24 +201,34 @@ static void count_legal(wf_frames *f, slot *frame) {
     if (outside > f->worst_outside) f->worst_outside = outside;
 }
 
-weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
-    slot *from = &f->slots[index % f->count];
-    wf_frame frame = {.index = index};
-    for (int c = 0; c < 3; c++) {
-        frame.plane[c] = from->plane[c];
-        frame.stride[c] = f->stride[c];
-    }
-    count_legal(f, from);
+static weft_status write_frame(void *user, weft_error *err) {
+    wf_frames *f = user;
     double start = wf_now_s();
-    weft_status status = f->setup->output.ops->write(f->sink, &frame, err);
+    weft_status status = f->setup->output.ops->write(f->sink, &f->written, err);
     f->write_s += wf_now_s() - start;
-    wf_crew_step(f->crew);
     return status;
 }
 
+weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
+    slot *from = &f->slots[index % f->count];
+    weft_status status = wf_aside_end(&f->writing, err);
+    if (status) return status;
+    f->written = (wf_frame){.index = index};
+    for (int c = 0; c < 3; c++) {
+        f->written.plane[c] = from->plane[c];
+        f->written.stride[c] = f->stride[c];
+    }
+    count_legal(f, from);
+    wf_aside_begin(&f->writing, write_frame, f);
+    wf_crew_step(f->crew);
+    return WEFT_OK;
+}
+
 weft_status wf_frames_commit(wf_frames *f, weft_error *err) {
+    weft_status status = wf_aside_end(&f->writing, err);
+    if (status) return status;
     double start = wf_now_s();
-    weft_status status = f->setup->output.ops->commit(f->sink, err);
+    status = f->setup->output.ops->commit(f->sink, err);
     f->sink = NULL;
     f->write_s += wf_now_s() - start;
     return status;

@@ -24,7 +24,8 @@ void wf_frames_place(const wf_frames *frames, const wf_worker *worker, int64_t f
                      float *rgb[3]);
 void wf_frames_line(wf_frames *frames, wf_worker *worker, int64_t field, int line);
 
-/* Opens the sink; hands it frame `index`, whose lines are all there, and tells progress; closes
+/* Opens the sink; hands it frame `index`, whose lines are all there, and tells progress: it is
+ * written while later frames are made, and the next call tells if that failed; closes
  * the sink, after which the output stands at its name. By one thread. */
 weft_status wf_frames_open(wf_frames *frames, weft_error *err);
 weft_status wf_frames_write(wf_frames *frames, int64_t index, weft_error *err);

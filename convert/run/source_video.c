@@ -26,6 +26,7 @@ typedef struct video_source {
     wf_meaning meaning;
     wf_light *light;
     wf_video_window *window;
+    wf_aside ahead; /* decodes what the next units need while fields are summed */
     wf_row_maker maker;
     wf_source_options options; /* of no consequence: nothing is read from files */
     wf_image_info first;
@@ -48,6 +49,7 @@ static bool takes(const weft_job *job) {
 static void close_input(wf_run *run) {
     video_source *s = run->source;
     if (!s) return;
+    wf_aside_end(&s->ahead, NULL);
     wf_resampler_free(s->resampler);
     wf_video_window_free(s->window);
     wf_light_free(s->light);
@@ -495,7 +497,7 @@ static weft_status ready(wf_run *run, int64_t field, weft_error *err) {
     video_source *s = run->source;
     int per_frame = wf_raster_fields_per_frame(&run->job->raster);
     int64_t frames = (field + per_frame - 1) / per_frame;
-    weft_status status = WEFT_OK;
+    weft_status status = wf_aside_end(&s->ahead, err);
     while (!status && s->count < 0) {
         int64_t read = units_read(s), sure = s->arrivals ? read - 1 : read;
         if (sure >= needs(run, field - 1).end && frames_of(s, sure) >= frames) break;
@@ -514,12 +516,33 @@ static weft_status check_end(const video_source *s, weft_error *err) {
     return last ? wf_video_window_advance(s->window, false, err) : WEFT_OK;
 }
 
+static weft_status read_ahead(void *window, weft_error *err) {
+    (void)err; /* the window tells when the picture's turn comes */
+    wf_video_window_read_ahead(window);
+    return WEFT_OK;
+}
+
+/* As many pictures again as these units took, but none that no field of the run needs, where
+ * their times tell. */
+static void begin_ahead(const wf_run *run, const wf_units *units) {
+    video_source *s = run->source;
+    int64_t fields = run->setup.end_frame * wf_raster_fields_per_frame(&run->job->raster);
+    bool told = s->count >= 0 || !s->arrivals;
+    int64_t next = wf_video_window_next(s->window), count = units->count * s->step;
+    int64_t past = told ? s->picture + needs(run, fields - 1).end * s->step : INT64_MAX;
+    if (count > past - next) count = past - next;
+    if (count < 1) return;
+    wf_video_window_plan_ahead(s->window, count > 100 ? 100 : (int)count);
+    wf_aside_begin(&s->ahead, read_ahead, s->window);
+}
+
 /* Pictures are forgotten that neither these units are nor a later field needs: where fields are
  * not carried, and where frames are left out, what follows may see some of them again. */
 static weft_status prepare(const wf_run *run, const wf_units *units, weft_error *err) {
     video_source *s = run->source;
     int64_t later = first_seen(run, units->group_end), first = units->unit[0];
     bool again = !run->pace.fields_carried || run->job->resume;
+    wf_aside_end(&s->ahead, NULL);
     int64_t keep = again ? later : INT64_MAX;
     int64_t needed = first < keep ? first : keep;
     forget_before(s, needed);
@@ -530,7 +553,9 @@ static weft_status prepare(const wf_run *run, const wf_units *units, weft_error 
         if (!status && met && units_read(s) <= units->unit[i])
             status = ends_early(s, units->unit[i], err);
     }
-    return status ? status : check_end(s, err);
+    if (!status) status = check_end(s, err);
+    if (!status) begin_ahead(run, units);
+    return status;
 }
 
 /* ---- Pictures ---- */

@@ -5,12 +5,26 @@
 #include <stdlib.h>
 
 typedef struct slot {
-    int64_t number; /* -1: it is free */
+    int64_t number; /* -1: it is free; AHEAD: its picture is not taken yet */
     uint16_t *code; /* of all planes */
 } slot;
 
+/* What decoding one picture more has given. */
+typedef struct outcome {
+    weft_status status;
+    weft_error error;
+    bool more;
+    int64_t ticks, lasts;
+    size_t at; /* its slot */
+} outcome;
+
+enum { AHEAD = -2, MOST_AHEAD = 8 };
+
 struct wf_video_window {
     wf_video *video;
+    int64_t ticks, lasts;      /* of the picture taken last */
+    outcome ahead[MOST_AHEAD]; /* pictures that are not taken yet */
+    int planned, read, taken;  /* of ahead */
     slot *slot;
     size_t slots, most_slots;
     size_t samples[3]; /* of each plane */
@@ -34,6 +48,7 @@ weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_win
     }
     w->video = video;
     w->end = -1;
+    w->ticks = INT64_MIN;
     for (int p = 0; p < wf_video_info_of(video)->planes; p++) {
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);
@@ -60,16 +75,16 @@ int64_t wf_video_window_end(const wf_video_window *w) {
 }
 
 int64_t wf_video_window_ticks(const wf_video_window *w) {
-    return wf_video_ticks(w->video);
+    return w->ticks;
 }
 
 int64_t wf_video_window_lasts(const wf_video_window *w) {
-    return wf_video_lasts(w->video);
+    return w->lasts;
 }
 
 void wf_video_window_forget(wf_video_window *w, int64_t number) {
     for (size_t i = 0; i < w->slots; i++)
-        if (w->slot[i].number < number) w->slot[i].number = -1;
+        if (w->slot[i].number < number && w->slot[i].number != AHEAD) w->slot[i].number = -1;
 }
 
 static weft_status add_slot(wf_video_window *w, slot **out, weft_error *err) {
@@ -92,7 +107,7 @@ static weft_status add_slot(wf_video_window *w, slot **out, weft_error *err) {
 
 static weft_status free_slot(wf_video_window *w, slot **out, weft_error *err) {
     for (size_t i = 0; i < w->slots; i++)
-        if (w->slot[i].number < 0) {
+        if (w->slot[i].number == -1) {
             *out = &w->slot[i];
             return WEFT_OK;
         }
@@ -106,25 +121,78 @@ static void planes_of(const wf_video_window *w, uint16_t *code, uint16_t *plane[
     }
 }
 
-weft_status wf_video_window_advance(wf_video_window *w, bool keep, weft_error *err) {
-    slot *to = NULL;
+static outcome decode(wf_video_window *w, const slot *to) {
+    outcome o = {.ticks = INT64_MIN};
     uint16_t *plane[3];
-    bool more = false;
-    weft_status status = keep ? free_slot(w, &to, err) : WEFT_OK;
-    if (status) return status;
-    if (keep) planes_of(w, to->code, plane);
-    status = wf_video_next_codes(w->video, keep ? plane : NULL, &more, err);
-    if (status) return status;
-    if (!more) {
+    if (to) planes_of(w, to->code, plane);
+    o.status = wf_video_next_codes(w->video, to ? plane : NULL, &o.more, &o.error);
+    if (o.status || !o.more) return o;
+    o.ticks = wf_video_ticks(w->video);
+    o.lasts = wf_video_lasts(w->video);
+    return o;
+}
+
+/* Takes what was decoded to a slot, which may be NULL, and keeps it or not. */
+static weft_status take(wf_video_window *w, const outcome *o, slot *to, bool keep,
+                        weft_error *err) {
+    if (to) to->number = !o->status && o->more && keep ? w->next : -1;
+    if (o->status) return wf_fail(err, o->status, "%s", o->error.text);
+    if (!o->more) {
         w->end = w->next;
         return WEFT_OK;
     }
-    if (keep) to->number = w->next;
+    w->ticks = o->ticks;
+    w->lasts = o->lasts;
     w->next++;
     return WEFT_OK;
 }
 
+/* ---- Reading ahead ---- */
+
+void wf_video_window_plan_ahead(wf_video_window *w, int count) {
+    slot *to;
+    if (w->taken < w->read || w->end >= 0) return;
+    w->planned = w->read = w->taken = 0;
+    /* What a field needs at once comes first. */
+    size_t most = w->most_slots / 2;
+    while (w->planned < count && w->planned < MOST_AHEAD && (size_t)w->planned < most &&
+           !free_slot(w, &to, NULL)) {
+        to->number = AHEAD;
+        w->ahead[w->planned++].at = (size_t)(to - w->slot);
+    }
+}
+
+void wf_video_window_read_ahead(wf_video_window *w) {
+    bool more = true;
+    for (; more && w->read < w->planned; w->read++) {
+        size_t at = w->ahead[w->read].at;
+        w->ahead[w->read] = decode(w, &w->slot[at]);
+        w->ahead[w->read].at = at;
+        more = !w->ahead[w->read].status && w->ahead[w->read].more;
+    }
+}
+
+/* Slots for which there was no picture, or whose picture nobody waits for, are free again. */
+static void drop_ahead(wf_video_window *w) {
+    for (; w->taken < w->planned; w->taken++) w->slot[w->ahead[w->taken].at].number = -1;
+    w->planned = w->read = w->taken = 0;
+}
+
+weft_status wf_video_window_advance(wf_video_window *w, bool keep, weft_error *err) {
+    slot *to = NULL;
+    if (w->taken < w->read) {
+        const outcome *o = &w->ahead[w->taken++];
+        return take(w, o, &w->slot[o->at], keep, err);
+    }
+    drop_ahead(w);
+    weft_status status = keep ? free_slot(w, &to, err) : WEFT_OK;
+    if (status) return status;
+    outcome o = decode(w, to);
+    return take(w, &o, to, keep, err);
+}
+
 weft_status wf_video_window_jump(wf_video_window *w, int64_t number, weft_error *err) {
+    drop_ahead(w);
     return wf_video_seek(w->video, number, &w->next, err);
 }
 

@@ -31,6 +31,13 @@ void wf_video_window_forget(wf_video_window *window, int64_t number);
  * wf_video_window_end instead. */
 weft_status wf_video_window_advance(wf_video_window *window, bool keep, weft_error *err);
 
+/* Reading ahead: has the next `count` pictures decoded, or those that there is memory for,
+ * before advance, which then takes them without waiting, and errors in their turn. plan settles
+ * where they go; read decodes them, on any one thread, while the window is only looked through;
+ * neither is called again before advance or jump is through with them. */
+void wf_video_window_plan_ahead(wf_video_window *window, int count);
+void wf_video_window_read_ahead(wf_video_window *window);
+
 /* Goes forward to the picture `number`, or to one before it where the file cannot be entered
  * there; what is kept stays. */
 weft_status wf_video_window_jump(wf_video_window *window, int64_t number, weft_error *err);

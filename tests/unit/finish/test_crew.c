@@ -98,6 +98,30 @@ static void cancelling(void **state) {
     wf_crew_free(&p.crew);
 }
 
+/* What is beside the work has its own failures, and may be ended however often. */
+static weft_status count_to(void *user, weft_error *err) {
+    int *n = user;
+    ++*n;
+    return *n < 3 ? WEFT_OK : wf_fail(err, WEFT_FAILED, "number %d", *n);
+}
+
+static void asides(void **state) {
+    (void)state;
+    wf_aside aside = {0};
+    weft_error err;
+    int n = 0;
+    assert_int_equal(wf_aside_end(&aside, &err), WEFT_OK);
+    for (int i = 1; i < 3; i++) {
+        wf_aside_begin(&aside, count_to, &n);
+        assert_int_equal(wf_aside_end(&aside, &err), WEFT_OK);
+        assert_int_equal(n, i);
+    }
+    wf_aside_begin(&aside, count_to, &n);
+    assert_int_equal(wf_aside_end(&aside, &err), WEFT_FAILED);
+    assert_string_equal(err.text, "number 3");
+    assert_int_equal(wf_aside_end(&aside, &err), WEFT_OK);
+}
+
 static void count_steps(const weft_progress *progress, void *user) {
     int64_t *seen = user;
     assert_int_equal(progress->frames_done, ++*seen);
@@ -131,6 +155,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(all_once, new_job, free_job),
         cmocka_unit_test_setup_teardown(failures, new_job, free_job),
+        cmocka_unit_test(asides),
         cmocka_unit_test_setup_teardown(cancelling, new_job, free_job),
         cmocka_unit_test_setup_teardown(progress, new_job, free_job),
     };
