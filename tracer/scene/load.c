@@ -170,7 +170,7 @@ static bool first_material(wf_builder *b) {
     if (!m) return false;
     *m = (wf_material){.color = {0.8f, 0.8f, 0.8f}, .ambient = 0.1f, .diffuse = 0.9f};
     m->shininess = 40;
-    m->index = 1.5f;
+    m->index = 1.5;
     b->materials = (wf_list){m, 1, 16};
     return true;
 }

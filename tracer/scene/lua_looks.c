@@ -46,7 +46,7 @@ static int call_material(lua_State *lua) {
                      .shininess = (float)k.shininess,
                      .reflect = (float)k.reflect,
                      .refract = (float)k.refract,
-                     .index = (float)k.index,
+                     .index = k.index,
                      .unlit = k.unlit};
     lua_getfield(lua, 2, "texture");
     if (!lua_isnil(lua, -1)) {

@@ -79,7 +79,7 @@ typedef struct wf_material {
     wf_texture texture; /* its color takes the place of color where there is one */
     float ambient, diffuse, specular, shininess, reflect;
     float refract; /* share of light that passes; 0: opaque */
-    float index;   /* of refraction */
+    double index;  /* of refraction */
     bool unlit;    /* the color itself is what is seen */
 } wf_material;
 

@@ -72,12 +72,23 @@ static bool try_part(search *q, const wf_culled *part) {
 
 /* ---- Rays that start inside a union ---- */
 
-static bool starts_inside(search *q, const wf_culled *part, bool *inside) {
-    double start[WF_PACKET] = {0};
-    uint8_t in[WF_PACKET];
+static bool holds(const search *q, const wf_culled *part, uint8_t *in) {
+    const double start[WF_PACKET] = {0};
     if (!make_part_runs(q, q->culls, part)) return false;
     wf_csg csg = program_of(q, q->culls, part);
     q->t->csg->inside(&csg, start, q->s->in, in);
+    return true;
+}
+
+bool wf_holds(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+              const wf_culls *culls, size_t part, uint8_t *in) {
+    const search q = {.t = t, .s = s, .packet = packet, .culls = culls};
+    return holds(&q, &culls->part[part], in);
+}
+
+static bool starts_inside(search *q, const wf_culled *part, bool *inside) {
+    uint8_t in[WF_PACKET];
+    if (!holds(q, part, in)) return false;
     for (int i = 0; i < q->packet->rays.count; i++) *inside |= in[i];
     return true;
 }

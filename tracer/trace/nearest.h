@@ -20,6 +20,10 @@ bool wf_nearest_part(const wf_tracer *tracer, wf_trace_scratch *scratch,
 wf_runs *wf_nearest_runs(const wf_tracer *tracer, wf_trace_scratch *scratch,
                          const wf_packet *packet, int solid);
 
+/* Whether one of the culled parts holds where each ray starts, as bytes 0 and 1. */
+bool wf_holds(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
+              const wf_culls *culls, size_t part, uint8_t *in);
+
 /* Copies `count` lanes of a packet, 1 or more. */
 void wf_packet_take(const wf_packet *from, const int *lane, int count, wf_packet *to);
 

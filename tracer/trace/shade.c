@@ -7,6 +7,7 @@
 #include "tracer/scene/vec.h"
 #include "tracer/trace/carry.h"
 #include "tracer/trace/find.h"
+#include "tracer/trace/glass.h"
 #include "tracer/trace/nearest.h"
 #include "tracer/trace/shadow.h"
 
@@ -23,6 +24,7 @@ typedef struct shading {
     wf_surfaces *surface;
     bool shines; /* something here has a highlight */
     _Alignas(64) double off[WF_PACKET];
+    double ratio[WF_PACKET]; /* of indices of refraction, where something clear is met */
 } shading;
 
 static wf_vec at(const wf_points *p, int i) {
@@ -127,6 +129,22 @@ static bool paint(shading *h) {
     return true;
 }
 
+bool wf_surfaces_of(const wf_tracer *t, wf_trace_scratch *s, wf_trace_level *l,
+                    wf_surfaces *surfaces, double *off) {
+    shading h = {.t = t, .s = s, .l = l, .count = l->packet.rays.count, .surface = surfaces};
+    if (!paint(&h)) return false;
+    memcpy(off, h.off, sizeof h.off);
+    return true;
+}
+
+/* Paints again where something opaque begins at the surface of something clear. */
+static bool bend(shading *h) {
+    bool changed;
+    if (!wf_glass_bend(h->t, h->s, h->l, h->surface, h->off, h->ratio, &changed)) return false;
+    if (h->t->media) wf_carry_begin(h->s);
+    return !changed || paint(h);
+}
+
 /* ---- Secondary packets ---- */
 
 static void add_ray(const shading *h, int lane, wf_vec from, wf_vec to, wf_packet *packet) {
@@ -194,9 +212,36 @@ static void find_ways(const shading *h, const wf_light *light, wf_points *ways, 
             share[i] *= reach_of(light, at(ways, i), at(&shines, i));
 }
 
+/* Light that comes to each lane, of the share that would come without shadows: where it came
+ * through something clear, tint has a share of it for each color. */
+typedef struct shadows {
+    bool tinted;
+    _Alignas(64) double tint[3][WF_PACKET];
+} shadows;
+
+/* Lets light through what is clear; dark: of the shadow's rays, which stand for these lanes. */
+static bool let_through(const shading *h, double far, const int *lane, uint8_t *dark,
+                        shadows *out) {
+    const wf_packet *packet = &h->l->shadow;
+    int blocked[WF_PACKET], count = 0;
+    double tint[3][WF_PACKET];
+    for (int k = 0; h->t->media && k < packet->rays.count; k++)
+        if (dark[k]) blocked[count++] = k;
+    if (!count) return true;
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < WF_PACKET; i++) out->tint[c][i] = tint[c][i] = 1;
+    if (!wf_glass_light(h->t, h->s, packet, blocked, count, far, dark, tint)) return false;
+    for (int n = 0; n < count; n++) {
+        int k = blocked[n];
+        out->tinted |= !dark[k];
+        for (int c = 0; c < 3; c++) out->tint[c][lane[k]] = tint[c][k];
+    }
+    return true;
+}
+
 /* Takes light away from the lanes that something stands before. */
 static bool cast_shadows(const shading *h, const wf_light *light, const wf_points *ways,
-                         double *share) {
+                         double *share, shadows *out) {
     wf_trace_level *l = h->l;
     uint8_t dark[WF_PACKET];
     int lane[WF_PACKET], lanes = 0;
@@ -212,10 +257,29 @@ static bool cast_shadows(const shading *h, const wf_light *light, const wf_point
     if (!lanes) return true;
     pad(&l->shadow);
     h->s->counts.rays += lanes;
-    if (!wf_shadow(h->t, h->s, &l->shadow, far, dark)) return false;
+    if (!wf_shadow(h->t, h->s, &l->shadow, far, dark) || !let_through(h, far, lane, dark, out))
+        return false;
     for (int k = 0; k < lanes; k++)
         if (dark[k]) share[lane[k]] = 0;
     return true;
+}
+
+static void add_light(const shading *h, const wf_points *ways, const double *share,
+                      const float color[3]) {
+    h->t->light->add(&h->l->packet.rays, &h->l->normal, ways, share, color, h->shines,
+                     h->surface);
+}
+
+/* One color after the other. */
+static void add_tinted(const shading *h, const wf_points *ways, const double *share,
+                       const float color[3], const shadows *cast) {
+    for (int c = 0; c < 3; c++) {
+        float only[3] = {0, 0, 0};
+        _Alignas(64) double part[WF_PACKET];
+        only[c] = color[c];
+        for (int i = 0; i < wf_places(h->count); i++) part[i] = share[i] * cast->tint[c][i];
+        add_light(h, ways, part, only);
+    }
 }
 
 static bool add_lights(const shading *h) {
@@ -225,10 +289,14 @@ static bool add_lights(const shading *h) {
         const wf_light *light = &h->t->scene->lights[n];
         wf_points ways;
         _Alignas(64) double share[WF_PACKET];
+        shadows cast;
+        cast.tinted = false;
         find_ways(h, light, &ways, share);
-        if (light->shadows && !cast_shadows(h, light, &ways, share)) return false;
-        h->t->light->add(&h->l->packet.rays, &h->l->normal, &ways, share, light->color,
-                         h->shines, f);
+        if (light->shadows && !cast_shadows(h, light, &ways, share, &cast)) return false;
+        if (cast.tinted)
+            add_tinted(h, &ways, share, light->color, &cast);
+        else
+            add_light(h, &ways, share, light->color);
     }
     return true;
 }
@@ -249,11 +317,9 @@ static bool refracted(wf_vec d, wf_vec n, double ratio, wf_vec *out) {
 }
 
 static wf_vec way_on(const shading *h, int i, bool through, double *side) {
-    const wf_material *m = h->surface->material[i];
     wf_vec d = wf_vec_unit(direction(&h->l->packet.rays, i)), n = at(&h->l->normal, i), out;
-    double index = (double)m->index, ratio = h->l->hits.entering[i] ? 1 / index : index;
     *side = 1;
-    if (!through || !refracted(d, n, ratio, &out)) return mirrored(d, n);
+    if (!through || !refracted(d, n, h->ratio[i], &out)) return mirrored(d, n);
     *side = -1;
     return out;
 }
@@ -311,7 +377,7 @@ static bool shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
                  .l = l,
                  .count = l->packet.rays.count,
                  .surface = &surface};
-    if (!paint(&h) || !add_lights(&h)) return false;
+    if (!paint(&h) || !bend(&h) || !add_lights(&h)) return false;
     t->light->sum(&surface, l->hits.s, t->scene->background, h.count, l->rgb);
     if (level + 1 >= s->levels) return true;
     return look_on(&h, true) && look_on(&h, false);

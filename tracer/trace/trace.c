@@ -47,6 +47,8 @@ void wf_trace_scratch_free(wf_trace_scratch *s) {
     free(s->level);
     free(s->runs);
     wf_culls_free(&s->joined);
+    wf_culls_free(&s->passage.culls);
+    wf_culls_free(&s->probe.culls);
     wf_culls_free(&s->alone);
     wf_culls_free(&s->around);
     wf_culls_free(&s->shadow);

@@ -1,6 +1,7 @@
 /* Tracers: what is known of a scene, and of a window of time, before rays are traced. */
 #include <stdlib.h>
 
+#include "tracer/trace/glass.h"
 #include "tracer/trace/parts.h"
 #include "tracer/trace/wide.h"
 
@@ -44,7 +45,7 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
     t->own_widths = any_own_width(scene);
     for (int n = 0; n < scene->light_count; n++)
         t->lights_move |= wf_op_moves(scene, scene->lights[n].op);
-    if (wf_parts_split(t) && make_arrays(t)) {
+    if (wf_parts_split(t) && make_arrays(t) && wf_glass_judge(t)) {
         wf_parts_judge(t);
         return t;
     }
@@ -60,6 +61,7 @@ void wf_tracer_free(wf_tracer *t) {
     wf_wide_free(&t->moving_wide);
     free(t->parts);
     free(t->sibling);
+    wf_glass_free(t);
     free(t->lit);
     free(t->clear);
     free(t->ops);

@@ -11,6 +11,13 @@
 
 /* What a tracer and its scratch are made of, for the files that trace. */
 
+/* What a part is filled with (`glass.h`). */
+typedef struct wf_medium {
+    double volume; /* at most */
+    double index;  /* of refraction */
+    bool clear;
+} wf_medium;
+
 struct wf_tracer {
     const wf_scene *scene;
     wf_view view;
@@ -27,6 +34,8 @@ struct wf_tracer {
     bool *lit;            /* [part]: light falls on it, so that shadows do */
     bool *clear; /* [part]: it mirrors or lets light through: what is seen in it may be anywhere
                   */
+    wf_medium *media; /* [part]; NULL: nothing is clear */
+    int *object_of;   /* [solid], where something is clear */
     int part_count, most_stack;
     bool own_widths, lights_move, all_still;
 
@@ -94,6 +103,9 @@ struct wf_trace_scratch {
     /* Some of a packet's rays. */
     wf_packet some;
     wf_hits some_hits;
+
+    /* Light on its way through what is clear, and places that are looked at. */
+    wf_trace_level passage, probe;
 
     /* An object as the union that it is, for rays that start inside of it. */
     wf_culls joined;
