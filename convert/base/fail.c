@@ -4,12 +4,19 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Names of files may hold line breaks, and what terminals obey. */
+static void keep_to_one_line(char *text) {
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
+}
+
 weft_status wf_fail(weft_error *err, weft_status status, const char *format, ...) {
     if (err) {
         va_list args;
         va_start(args, format);
         vsnprintf(err->text, sizeof err->text, format, args);
         va_end(args);
+        keep_to_one_line(err->text);
     }
     return status;
 }

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/media/kinds.h"
 #include "convert/media/tiff_tags.h"
 
 /* A file under examination. */
@@ -154,9 +155,12 @@ static bool looks_like_tga(const exam *x) {
 
 /* ---- TIFF ---- */
 
-/* What OpenImageIO would hand out as R G B all the same. */
+/* What OpenImageIO would hand out as R G B all the same. Raw pictures of cameras begin as TIFF,
+ * and hold a small picture for looking at. */
 static weft_status examine_tiff(const exam *x) {
     wf_tiff_tags tags;
+    weft_status status = wf_refuse_kind(x->path, x->err);
+    if (status) return status;
     if (!wf_tiff_tags_read(x->file, &tags)) return cut_short(x, "it has no directory");
     bool negative = tags.photometric == WF_TIFF_WHITE_IS_ZERO && tags.bits > 8;
     if (!negative && tags.photometric < WF_TIFF_CIELAB) return WEFT_OK;
@@ -221,12 +225,24 @@ static weft_status examine(const exam *x, const char **format) {
         *format = "targa";
         return WEFT_OK;
     }
+    weft_status status = wf_refuse_kind(x->path, x->err);
+    if (status) return status;
     return wf_fail(
         x->err, WEFT_FAILED,
         "%.700s: it does not begin like an EXR, DPX, TIFF, PNG, JPEG, WebP, HDR or TGA, which "
-        "weft reads; "
-        "convert it first (oiiotool IN -o OUT.exr does)",
+        "are the pictures that weft reads; 'file IN' may tell what it is",
         x->path);
+}
+
+bool wf_begins_as_picture(const char *path) {
+    char head[12] = "";
+    FILE *file = fopen(path, "rbe");
+    size_t got = file ? fread(head, 1, sizeof head, file) : 0;
+    if (file) fclose(file);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (got == sizeof head && !memcmp(head, formats[i].magic, formats[i].magic_bytes))
+            return formats[i].examine != examine_webp || !memcmp(head + 8, "WEBP", 4);
+    return false;
 }
 
 weft_status wf_format_of(const char *path, const char **format, weft_error *err) {

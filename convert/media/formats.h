@@ -1,6 +1,8 @@
 #ifndef WF_CONVERT_MEDIA_FORMATS_H
 #define WF_CONVERT_MEDIA_FORMATS_H
 
+#include <stdbool.h>
+
 #include "convert/base/fail.h"
 
 /* Formats of single pictures that are read through OpenImageIO, told by how files begin and not
@@ -11,5 +13,9 @@
  * JPEG, the sizes DPX states. Damage, and a format that is not one of them, is an error that
  * names the file. */
 weft_status wf_format_of(const char *path, const char **format, weft_error *err);
+
+/* Whether the file at path begins as one of them does, whatever it is called. TGA begins with
+ * nothing of its own, and is told by its name. */
+bool wf_begins_as_picture(const char *path);
 
 #endif

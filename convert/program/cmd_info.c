@@ -5,11 +5,13 @@
 #include "convert/base/fail.h"
 #include "convert/base/pattern.h"
 #include "convert/job/taken.h"
+#include "convert/media/kinds.h"
 #include "convert/program/cmd.h"
 #include "convert/program/info_facts.h"
 #include "convert/read/rate.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
+#include "convert/read/video.h"
 
 typedef struct info_state {
     bool json;
@@ -162,9 +164,11 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     bool exists = !stat(path, &about), is_y4m = false;
     if (exists ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
         return tell_sequence(path, facts, err);
-    if (wf_info_is_video(path)) return wf_info_video(path, facts, err);
-    weft_status status = wf_info_y4m(path, facts, &is_y4m, err);
+    weft_status status = wf_refuse_kind(path, err);
+    if (status) return status;
+    status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
+    if (wf_video_is(path)) return wf_info_video(path, facts, err);
     wf_fact_text(facts, "kind", "picture");
     wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
     return tell_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);

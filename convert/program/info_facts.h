@@ -26,9 +26,6 @@ void wf_facts_taken(wf_facts *facts, const wf_taken_list *taken);
  * file is not one. */
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err);
 
-/* Whether a file's name ends as that of a container of video does. */
-bool wf_info_is_video(const char *path);
-
 /* Tells what a container says of its video, the first frame of which is decoded. */
 weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err);
 

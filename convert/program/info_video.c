@@ -1,19 +1,10 @@
 /* Part of weft info: video in containers, as the libav module reads it. */
 #include <string.h>
-#include <strings.h>
 
 #include "convert/program/info_facts.h"
 #include "convert/read/rate.h"
 #include "convert/video/meaning.h"
 #include "convert/video/rate.h"
-
-bool wf_info_is_video(const char *path) {
-    static const char *const endings[] = {".mov", ".mxf", ".mkv", ".mp4", ".avi", ".dv"};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
-        if (!strcasecmp(dot, endings[i])) return true;
-    return false;
-}
 
 static void tell_video(const wf_video_info *info, wf_facts *facts) {
     const wf_raster *r = &info->raster;

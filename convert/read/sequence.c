@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "convert/base/range.h"
@@ -233,16 +234,42 @@ static weft_status read_directory(const wf_names *names, reading *out, weft_erro
     return status;
 }
 
+/* What files are called, by their endings: "3 .mov, 1 .txt". */
+static void tell_endings(const wf_names *names, char *text, size_t size) {
+    const char *ending[6];
+    size_t number[6] = {0}, count = 0, used = 0;
+    *text = '\0';
+    for (const char *name = NULL; (name = wf_names_next(names, name));) {
+        const char *dot = strrchr(name, '.');
+        size_t i = 0;
+        if (!dot) continue;
+        while (i < count && strcasecmp(ending[i], dot)) i++;
+        if (i == sizeof ending / sizeof *ending) continue;
+        if (i == count) ending[count++] = dot;
+        number[i]++;
+    }
+    for (size_t i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%zu %.16s", i ? ", " : " (",
+                                 number[i], ending[i]);
+    if (count && used < size) snprintf(text + used, size - used, ")");
+}
+
 static weft_status refuse_groups(const char *input, const wf_names *names,
                                  const wf_numbered_list *groups, weft_error *err) {
-    char there[600];
+    char there[600], endings[160];
     wf_groups_text(groups, there, sizeof there);
+    tell_endings(names, endings, sizeof endings);
+    if (!names->count)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: the directory holds no files; give the one that the pictures are in",
+            wf_path_tail(input));
     if (!groups->count)
         return wf_fail(
             err, WEFT_FAILED,
-            "%s: the directory holds no numbered pictures among its %zu files; give a "
-            "pattern such as shot.####.exr, or the files in order",
-            wf_path_tail(input), names->count);
+            "%s: the directory holds no numbered pictures among its %zu files%s; give a "
+            "pattern such as shot.####.exr, the files in order, or a video by its own name",
+            wf_path_tail(input), names->count, endings);
     return wf_fail(
         err, WEFT_FAILED,
         "%s: the directory does not hold just one sequence; give the pattern of one of "
@@ -434,12 +461,6 @@ static weft_status expand_many(char *const *inputs, size_t count, const char *fr
     return expand_list(inputs, count, frames, out, err);
 }
 
-/* File names may hold line breaks; messages are of one line. */
-static void keep_to_one_line(weft_error *err) {
-    for (char *c = err->text; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
-}
-
 weft_status wf_sequence_expand(char *const *inputs, size_t count, const char *frames,
                                wf_sequence *out, weft_error *err) {
     *out = (wf_sequence){0};
@@ -447,8 +468,6 @@ weft_status wf_sequence_expand(char *const *inputs, size_t count, const char *fr
         return wf_fail(err, WEFT_USAGE,
                        "no input; give a file, a pattern such as shot.####.exr, "
                        "or a directory");
-    weft_status status = count == 1 ? expand_one(inputs[0], frames, out, err)
-                                    : expand_many(inputs, count, frames, out, err);
-    if (status && err) keep_to_one_line(err);
-    return status;
+    return count == 1 ? expand_one(inputs[0], frames, out, err)
+                      : expand_many(inputs, count, frames, out, err);
 }

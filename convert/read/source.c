@@ -11,6 +11,7 @@
 #include "convert/base/module.h"
 #include "convert/media/color_tags.h"
 #include "convert/media/formats.h"
+#include "convert/media/kinds.h"
 #include "convert/media/oiio/oiio.h"
 #include "convert/read/source_exr.h"
 
@@ -189,6 +190,18 @@ static bool is_called_exr(const char *path) {
     return dot && !strcasecmp(dot, ".exr");
 }
 
+/* What is called EXR and is none is not taken for something else: the name may be right, and
+ * the file what is left of it. */
+static weft_status refuse_false_name(const char *path, weft_error *err) {
+    weft_status status = wf_refuse_kind(path, err);
+    return status ? status
+                  : wf_fail(err, WEFT_FAILED, "%s: not an EXR file, though it is called one%s",
+                            path,
+                            wf_begins_as_picture(path)
+                                ? ": it begins as a picture of another format does"
+                                : "");
+}
+
 weft_status wf_subframe_open(const char *path, int part, const wf_source_options *options,
                              wf_subframe **out, weft_error *err) {
     *out = NULL;
@@ -201,8 +214,7 @@ weft_status wf_subframe_open(const char *path, int part, const wf_source_options
     else if (wf_is_exr(path))
         status = open_exr(s, options, part, err);
     else if (is_called_exr(path))
-        status =
-            wf_fail(err, WEFT_FAILED, "%s: not an EXR file, though it is called one", path);
+        status = refuse_false_name(path, err);
     else
         status = open_whole(s, options, part, err);
     if (!status)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "convert/base/range.h"
+#include "convert/media/kinds.h"
 #include "convert/read/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/time/picture_rate.h"
@@ -135,7 +136,8 @@ static weft_status open_input(wf_run *run, weft_error *err) {
             "%s is video, of which one file is taken at a time, and %s is given too; "
             "convert them one by one, or join them first",
             s->path, job->inputs[1]);
-    weft_status status = open_video(run, err);
+    weft_status status = wf_refuse_kind(s->path, err);
+    if (!status) status = open_video(run, err);
     if (!status) status = refuse_interlaced(run, err);
     return status ? status : find_meaning(run, err);
 }
