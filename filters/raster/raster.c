@@ -108,7 +108,7 @@ static bool variant_at(size_t index, wf_raster *out) {
 static bool find_named(const char *text, wf_raster *out) {
     wf_raster raster;
     for (size_t i = 0; i < 2 * RASTERS; i++) {
-        if (!variant_at(i, &raster) || strcasecmp(raster.name, text)) continue;
+        if (!variant_at(i, &raster) || !wf_raster_is_called(text, raster.name)) continue;
         *out = raster;
         return true;
     }

@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
@@ -12,6 +13,19 @@ static const wf_raster_other_name aliases[] = {
     {"ntsc",        "525i"},        {"ntsc-dv",     "525i-dv"},     {"ntsc-wide",   "525i-wide"},
     {"486i",        "525i"},        {"486i29.97",   "525i"},        {"486i59.94",   "525i"},
     {"525i29.97",   "525i"},        {"525i59.94",   "525i"},
+    {"ntsc-j",      "525i"},        {"ntsc-m",      "525i"},        {"ntsc-sd",     "525i"},
+    {"sd-ntsc",     "525i"},        {"pal-m",       "525i"},        {"525i59",      "525i"},
+    {"pal-sd",      "625i"},        {"sd-pal",      "625i"},        {"pal-d1",      "625i"},
+    {"d1-pal",      "625i"},        {"dvd-pal",     "625i"},        {"pal-dvd",     "625i"},
+    {"pal-n",       "625i"},        {"pal-b",       "625i"},        {"pal-g",       "625i"},
+    {"pal-i",       "625i"},        {"secam-l",     "625i"},        {"576i25-tff",  "625i"},
+    {"dv-pal",      "625i-dv"},     {"dv-ntsc",     "525i-dv"},
+    {"pal16:9",     "625i-wide"},   {"ntsc16:9",    "525i-wide"},   {"480i29.97-bff", "525i-dv"},
+    {"480i59.94-bff", "525i-dv"},   {"480i29.97-tff", "525i-rp202"}, {"480i59.94-tff", "525i-rp202"},
+    {"1080i59",     "1080i59.94"},  {"1080i29",     "1080i59.94"},  {"1080p29",     "1080p29.97"},
+    {"1080p59",     "1080p59.94"},  {"1080p23",     "1080p23.976"}, {"720p59",      "720p59.94"},
+    {"1080i60000/1001", "1080i59.94"}, {"1080i30000/1001", "1080i59.94"},
+    {"1080sf25",    "1080psf25"},   {"1080sf24",    "1080psf24"},   {"1080psf23",   "1080psf23.976"},
     {"pal",         "625i"},        {"pal-dv",      "625i-dv"},     {"pal-wide",    "625i-wide"},
     {"secam",       "625i"},        {"576i",        "625i"},        {"576i25",      "625i"},
     {"576i50",      "625i"},        {"625i25",      "625i"},        {"625i50",      "625i"},
@@ -35,6 +49,12 @@ static const wf_raster_other_name aliases[] = {
 #define PROGRESSIVE_SD \
     "describe it, such as 720x576@50p,par=12:11,601-625 or 720x480@59.94p,par=10:11,601-525"
 #define RATE_MISSING "its rate is missing: "
+#define HD                                                                                         \
+    RATE_MISSING "1080i50 and 1080i59.94 are interlaced, 1080p25 .. and 720p50 .. are not"
+#define OF_50 "50 fields a second are 625i or 1080i50"
+#define OF_60 "59.94 fields a second are 525i or 1080i59.94, 60 are 1080i60"
+#define SD    "it is 625i (50 fields a second, PAL) or 525i (59.94, NTSC)"
+#define OF_720 "720 lines are progressive only: 720p50, 720p59.94 .."
 
 static const struct {
     const char *text, *advice;
@@ -45,7 +65,21 @@ static const struct {
     {"480p", PROGRESSIVE_SD}, {"576p", PROGRESSIVE_SD}, {"576p25", PROGRESSIVE_SD},
     {"576p50", PROGRESSIVE_SD}, {"480p59.94", PROGRESSIVE_SD}, {"480p29.97", PROGRESSIVE_SD},
     {"1080i", RATE_MISSING "1080i50, 1080i59.94 or 1080i60"},
-    {"hd", RATE_MISSING "1080i50 and 1080i59.94 are interlaced, 1080p25 .. and 720p50 .. are not"},
+    {"hd", HD}, {"hdtv", HD}, {"fhd", HD}, {"full-hd", HD}, {"fullhd", HD}, {"1080", HD},
+    {"hd1080", HD}, {"2k", HD}, {"hd1080i", RATE_MISSING "1080i50, 1080i59.94 or 1080i60"},
+    {"sd", SD}, {"sdtv", SD}, {"d1", SD}, {"dvd", SD}, {"betacam", SD}, {"vhs", SD}, {"bt601", SD},
+    {"dv", "it is 625i-dv (PAL) or 525i-dv (NTSC)"},
+    {"625", "625 lines are interlaced, 50 fields a second: 625i"}, {"576", "576 lines are 625i"},
+    {"525", "525 lines are interlaced, 59.94 fields a second: 525i"}, {"480", OF_480},
+    {"486", "486 lines are 525i"},
+    {"dvd-ntsc", OF_480}, {"ntsc-dvd", OF_480}, {"480i59", OF_480}, {"480i29", OF_480},
+    {"25i", OF_50}, {"50i", OF_50}, {"i50", OF_50}, {"i25", OF_50},
+    {"29.97i", OF_60}, {"30i", OF_60}, {"59.94i", OF_60}, {"60i", OF_60}, {"i60", OF_60},
+    {"i59.94", OF_60},
+    {"720", OF_720}, {"720i", OF_720}, {"720i50", OF_720}, {"720i25", OF_720}, {"720i60", OF_720},
+    {"720i59.94", OF_720}, {"720i29.97", OF_720},
+    {"625p", PROGRESSIVE_SD}, {"625p50", PROGRESSIVE_SD}, {"625p25", PROGRESSIVE_SD},
+    {"525p", PROGRESSIVE_SD}, {"480p60", PROGRESSIVE_SD}, {"480p30", PROGRESSIVE_SD},
     {"1080i24", "fields of 24 frames a second are segmented: 1080psf24"},
     {"1080i23.976", "fields of 23.976 frames a second are segmented: 1080psf23.976"},
     {"1080p", RATE_MISSING "1080p25, 1080p29.97, 1080p50, 1080p59.94 .."},
@@ -53,21 +87,32 @@ static const struct {
     {"720p", RATE_MISSING "720p50, 720p59.94 .."},
     {"2160p", RATE_MISSING "2160p25, 2160p50, 2160p59.94 .."},
     {"uhd", RATE_MISSING "2160p25, 2160p50, 2160p59.94 .."},
+    {"1125i", "1125 lines have 1080 of picture: 1080i50, 1080i59.94 or 1080i60"},
     {"4k", RATE_MISSING "2160p25, 2160p50, 2160p59.94 .."},
 };
 /* clang-format on */
 
-/* Whether text is word but for case, blanks and slashes ("1080i/25", "PAL"). */
+static bool is_mark(char c) {
+    return c && strchr(" /-_@", c);
+}
+
+/* Whether text is word but for case, marks between and a unit at its end ("1080i/25", "PAL",
+ * "1080i 50 Hz"). */
 static bool is_word(const char *text, const char *word) {
-    for (; *text; text++) {
-        if (*text == ' ' || *text == '/') continue;
-        if (tolower((unsigned char)*text) != *word++) return false;
+    for (;;) {
+        while (is_mark(*text)) text++;
+        while (is_mark(*word)) word++;
+        if (!*word) return !*text || !strcasecmp(text, "hz") || !strcasecmp(text, "fps");
+        if (tolower((unsigned char)*text++) != *word++) return false;
     }
-    return !*word;
 }
 
 const wf_raster_other_name *wf_raster_alias_at(size_t index) {
     return index < COUNT(aliases) ? &aliases[index] : NULL;
+}
+
+bool wf_raster_is_called(const char *text, const char *name) {
+    return is_word(text, name);
 }
 
 const char *wf_raster_own_name(const char *text) {
@@ -102,8 +147,37 @@ static int system_lines(const char *name) {
     return 0;
 }
 
+/* The rate that follows the scan, whole hundredths and thousandths without their dot too; 0:
+ * none does. */
+static double rate_of(const char *name) {
+    const char *at = name + strspn(name, "0123456789");
+    at += strspn(at, "ipsfIPSF/ @");
+    double rate = strtod(at, NULL);
+    for (bool dotless = rate >= 1000; dotless && rate > 130;) rate /= 10;
+    return rate;
+}
+
+#define MOST_LINES_OFF 5 /* 526i is a slip of 525i; 25i is not */
+
+static bool is_near(double a, double b) {
+    return a - b <= 1 && b - a <= 1;
+}
+
+/* Interlaced rasters are named by their fields a second, and asked for by frames too. Those of
+ * standard definition have their rate by their lines. */
+static bool may_run_at(const char *text, const char *name) {
+    double said = rate_of(text), own = rate_of(name);
+    int lines = system_lines(name);
+    if (!own) own = lines == 525 ? 59.94 : lines == 625 ? 50 : 0;
+    if (!said || !own || !scan_letter(text)) return true;
+    return is_near(said, own) || (scan_letter(name) == 'i' && is_near(2 * said, own));
+}
+
 bool wf_raster_may_mean(const char *text, const char *name) {
     int scan = scan_letter(text), lines = system_lines(text);
     if (scan && scan != scan_letter(name)) return false;
-    return !lines || lines == system_lines(name);
+    if (lines && lines != system_lines(name)) return false;
+    long said = strtol(text, NULL, 10), own = strtol(name, NULL, 10);
+    if (!lines && said && labs(said - own) > MOST_LINES_OFF) return false;
+    return may_run_at(text, name);
 }

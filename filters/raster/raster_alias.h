@@ -16,12 +16,15 @@ const wf_raster_other_name *wf_raster_alias_at(size_t index);
  * another name of; text itself where it is none. */
 const char *wf_raster_own_name(const char *text);
 
+/* Whether text is the name but for case, blanks, slashes, hyphens and a unit: "1080I/50 Hz". */
+bool wf_raster_is_called(const char *text, const char *name);
+
 /* What somebody should know who asks for a name that several rasters could be meant by, such as
  * 480i or 1080p; NULL for other names. Static storage. */
 const char *wf_raster_advice(const char *text);
 
-/* Whether a raster's name may be suggested for text: one of another scan or, where text begins
- * with the lines of a raster, of another number of lines is never meant. */
+/* Whether a raster's name may be suggested for text: one of another scan, of another number of
+ * lines or of a rate that is more than 1 off (of fields or frames) is never meant. */
 bool wf_raster_may_mean(const char *text, const char *name);
 
 #endif

@@ -1,4 +1,5 @@
 /* Rasters against a table typed from the standards once more; orders against line maps. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -249,6 +250,18 @@ static void other_names_are_the_right_rasters(void **state) {
         {"1080i30", "1080i60", 1080, 30},
         {"1080I50", "1080i50", 1080, 25},
         {"720p5994", "720p59.94", 720, 60000.0 / 1001},
+        {"1080i/50", "1080i50", 1080, 25},
+        {"1080i 50 Hz", "1080i50", 1080, 25},
+        {"1080i_59.94", "1080i59.94", 1080, 30000.0 / 1001},
+        {"1080i59", "1080i59.94", 1080, 30000.0 / 1001},
+        {"NTSC-J", "525i", 486, 30000.0 / 1001},
+        {"PAL-SD", "625i", 576, 25},
+        {"sd pal", "625i", 576, 25},
+        {"PAL 16:9", "625i-wide", 576, 25},
+        {"pal-m", "525i", 486, 30000.0 / 1001},
+        {"SECAM-L", "625i", 576, 25},
+        {"480i29.97-bff", "525i-dv", 480, 30000.0 / 1001},
+        {"1080sf25", "1080psf25", 1080, 25},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         wf_raster r = parse(cases[i].text);
@@ -264,7 +277,8 @@ static void every_other_name_is_of_a_raster_and_of_none_itself(void **state) {
     for (size_t i = 0; (other = wf_raster_alias_at(i)); i++) {
         wf_raster r = parse(other->alias);
         assert_string_equal(r.name, other->name);
-        bool interlaced = strstr(other->alias, "i") || !strpbrk(other->alias, "0123456789");
+        size_t digits = strspn(other->alias, "0123456789");
+        bool interlaced = digits < 3 || other->alias[digits] == 'i';
         assert_int_equal(r.scan == WF_INTERLACED, interlaced);
         for (size_t k = 0; wf_raster_at(k); k++)
             assert_string_not_equal(wf_raster_at(k)->name, other->alias);
@@ -300,6 +314,11 @@ static void nothing_of_another_scan_or_size_is_suggested(void **state) {
                 (raster->scan == WF_PROGRESSIVE) != !strcmp(scan, "p"))
                 fail_msg("%s: %s", text, why);
             if (atoi(size) >= 720 && raster->lines != atoi(size)) fail_msg("%s: %s", text, why);
+            double rate = atof(rates_said[n % 21]), own = wf_ratio_value(raster->frame_rate);
+            if (rate > 1000) rate /= 100;
+            bool near = fabs(rate - own) <= 1 || fabs(rate - 2 * own) <= 1 ||
+                        fabs(2 * rate - 2 * own) <= 1;
+            if (rate > 0 && !near) fail_msg("%s: %s", text, why);
         }
     }
 }
@@ -312,6 +331,11 @@ static void names_that_say_too_little_are_told_what_lacks(void **state) {
         {"480i", "525i-dv"},      {"480i59.94", "525i-rp202"}, {"1080i", "1080i50"},
         {"1080i24", "1080psf24"}, {"525i60", "59.94"},         {"hd", "1080i59.94"},
         {"1080p", "1080p25"},     {"576p50", "720x576@50p"},   {"4K", "2160p50"},
+        {"1080", "1080i50"},      {"HDTV", "1080i59.94"},      {"sd", "625i"},
+        {"720", "720p50"},        {"720i50", "720p50"},        {"625", "625i"},
+        {"480", "525i-rp202"},    {"25i", "1080i50"},          {"59.94i", "525i"},
+        {"60i", "1080i59.94"},    {"dv", "625i-dv"},           {"1125i", "1080i59.94"},
+        {"525p", "720x480"},      {"dvd-ntsc", "525i-rp202"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char why[512];
@@ -333,6 +357,8 @@ static void refusals_say_what_is_right(void **state) {
         {"625i-wid", "did you mean 625i-wide?"},
         {"1080i59.95", "did you mean 1080i59.94?"},
         {"1080i50-wide", "weft rasters"},
+        {"1080i48", "such as 1920x1080@25i"},
+        {"1250i", "weft rasters"},
         {"nonsense", "weft rasters"},
         {"180x121@30i", "even"},
         {"180x121@30psf", "even"},
