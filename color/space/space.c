@@ -293,6 +293,26 @@ static void list_names(char *text, size_t size) {
             (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", spaces[i].name);
 }
 
+/* What spaces are called elsewhere, where their letters do not tell. */
+static const char *meant_by(const char *name) {
+    static const char *const rows[][2] = {
+        {"pq", "rec2100-pq"},        {"st2084", "rec2100-pq"},
+        {"hdr10", "rec2100-pq"},     {"hlg", "rec2100-hlg"},
+        {"bt709", "rec709"},         {"bt.709", "rec709"},
+        {"bt1886", "rec709"},        {"hd", "rec709"},
+        {"linear", "lin_rec709"},    {"scene_linear", "lin_rec709"},
+        {"lin_srgb", "lin_rec709"},  {"raw", "lin_rec709"},
+        {"none", "lin_rec709"},      {"bt2020", "rec2020"},
+        {"bt.2020", "rec2020"},      {"pal", "rec601-625"},
+        {"ntsc", "rec601-525"},      {"bt470bg", "rec601-625"},
+        {"smpte170m", "rec601-525"}, {"aces", "ACES2065-1"},
+        {"ap0", "ACES2065-1"},       {"ap1", "ACEScg"},
+        {"p3", "lin_p3d65"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcasecmp(rows[i][0], name)) return rows[i][1];
+    return NULL;
+}
+
 const wf_space *wf_space_find(const char *name, char *why, size_t why_size) {
     for (size_t i = 0; i < SPACES; i++) {
         const wf_space *s = &spaces[i];
@@ -300,7 +320,8 @@ const wf_space *wf_space_find(const char *name, char *why, size_t why_size) {
     }
     char there[512];
     list_names(there, sizeof there);
-    const char *alike = spelled_alike(name);
+    const char *alike = meant_by(name);
+    if (!alike) alike = spelled_alike(name);
     snprintf(why, why_size, "there is no color space \"%.80s\"%s%s%s; there are %s", name,
              alike ? " (did you mean " : "", alike ? alike : "", alike ? "?)" : "", there);
     return NULL;

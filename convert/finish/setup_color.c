@@ -219,20 +219,20 @@ static weft_status settle_view(const weft_job *job, const light *l, wf_setup *s,
                                weft_error *err) {
     wf_ocio_display_fn *display_of;
     wf_named_display display;
-    char name[128], why[900];
-    bool is_data = false;
+    wf_ocio_shown shown;
+    char why[900];
     const char *raster_space = wf_colors_of(job->raster.matrix)->space;
     weft_status status = ocio_entry("wf_ocio_display_of", &display_of, err);
     if (status) return status;
-    if (!display_of(l->config, job->display, job->view, name, sizeof name, &is_data, why,
-                    sizeof why))
+    if (!display_of(l->config, job->display, job->view, &shown, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "%s", why);
-    if (is_data || s->output.kind->layout == WF_LINEAR) return WEFT_OK;
-    if (!wf_named_display_of(name, &display)) {
+    if (shown.is_data || s->output.kind->layout == WF_LINEAR) return WEFT_OK;
+    if (!wf_named_display_of(shown.display, &display) &&
+        !wf_named_display_of(shown.space, &display)) {
         wf_job_warn(
             job,
             "what display \"%s\" makes of codes is not known: they are written as they are",
-            name);
+            shown.display);
         return WEFT_OK;
     }
     const char *to = display.hdr ? display.hdr : raster_space;

@@ -369,16 +369,17 @@ bool wf_ocio_input_open(const char *config, const char *from, wf_ocio_input *out
     return guarded(config, why, why_size, [&] { open_input(config, from, *out); });
 }
 
-bool wf_ocio_display_of(const char *config, const char *display, const char *view, char *name,
-                        size_t name_size, bool *is_data, char *why, size_t why_size) {
+bool wf_ocio_display_of(const char *config, const char *display, const char *view,
+                        wf_ocio_shown *out, char *why, size_t why_size) {
     return guarded(config, why, why_size, [&] {
         const Config c = load(config);
         const char *shown_on = given(display) ? display : c->getDefaultDisplay();
         const char *shown = given(view) ? view : c->getDefaultView(shown_on);
         const char *space = c->getDisplayViewColorSpaceName(shown_on, shown);
         OCIO::ConstColorSpaceRcPtr found = given(space) ? c->getColorSpace(space) : nullptr;
-        *is_data = found && found->isData();
-        std::snprintf(name, name_size, "%s", shown_on);
+        out->is_data = found && found->isData();
+        std::snprintf(out->display, sizeof out->display, "%s", shown_on);
+        std::snprintf(out->space, sizeof out->space, "%s", found ? found->getName() : "");
     });
 }
 }

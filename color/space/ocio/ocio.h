@@ -32,11 +32,14 @@ typedef struct wf_ocio_input {
 typedef bool wf_ocio_input_fn(const char *config, const char *from, wf_ocio_input *out,
                               char *why, size_t why_size);
 
-/* What a view is shown on: the display's name (the configuration's default one where NULL is
- * given) and whether the view's color space is data, which no display decodes. */
+/* What a view is shown on. */
+typedef struct wf_ocio_shown {
+    char display[128]; /* its name: the configuration's default one where NULL is given */
+    char space[128];   /* the name of the view's color space; "" if there is none */
+    bool is_data;      /* that is data, which no display decodes */
+} wf_ocio_shown;
 typedef bool wf_ocio_display_fn(const char *config, const char *display, const char *view,
-                                char *name, size_t name_size, bool *is_data, char *why,
-                                size_t why_size);
+                                wf_ocio_shown *out, char *why, size_t why_size);
 
 #define WF_OCIO_AP0 "aces_interchange"
 
