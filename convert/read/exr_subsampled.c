@@ -178,6 +178,41 @@ static void interpolate(const reading *r, const float *from, size_t count, size_
     for (size_t i = 0; i < most; i++) to[i * to_step] = a[i];
 }
 
+/* ---- Samples that are not finite ---- */
+
+/* Interpolation would spread them over every sample that its filter reaches. So they are
+ * replaced before it, and only the pixels that a bad sample stands for are bad after it, for
+ * --fix-nan to treat as it treats others. */
+
+static weft_status replace_bad(const reading *r, plane *p, float **before, weft_error *err) {
+    size_t samples = p->width * p->lines;
+    wf_nan_fixer fixer = {.rows = {.plane = {p->sample},
+                                   .line_stride = p->width,
+                                   .type = WF_FLOAT,
+                                   .channels = 1,
+                                   .y1 = (int)p->lines,
+                                   .x1 = (int)p->width},
+                          .how = WF_NAN_BOX3};
+    int x, y;
+    *before = NULL;
+    if (!wf_find_not_finite(&fixer.rows, &x, &y)) return WEFT_OK;
+    float *fixed = malloc(samples * sizeof *fixed);
+    if (!fixed) return no_memory(r, err);
+    wf_nan_fix_rows(&fixer, fixed);
+    *before = p->sample;
+    p->sample = fixed;
+    return WEFT_OK;
+}
+
+/* Marks the pixels of samples that were bad before. */
+static void mark_bad(const reading *r, const plane *p, const float *before, float *full) {
+    for (size_t y = 0; y < r->lines; y++)
+        for (size_t x = 0; x < r->width; x++) {
+            float sample = before[y / (size_t)p->down * p->width + x / (size_t)p->across];
+            if (!isfinite(sample)) full[y * r->width + x] = sample;
+        }
+}
+
 /* A plane of the picture's size from one with fewer samples: first along lines, then up. */
 static void fill_plane(const reading *r, const plane *p, float *full) {
     for (size_t y = 0; y < p->lines; y++)
@@ -236,18 +271,30 @@ static void make_rgb(const reading *r, float *planes) {
     }
 }
 
-static void finish(const reading *r, float *planes) {
+static weft_status finish_plane(reading *r, plane *p, float *full, weft_error *err) {
+    float *before;
+    weft_status status = p->borrowed ? WEFT_OK : replace_bad(r, p, &before, err);
+    if (status || p->borrowed) return status;
+    fill_plane(r, p, full);
+    if (before) mark_bad(r, p, before, full);
+    free(before);
+    return WEFT_OK;
+}
+
+static weft_status finish(reading *r, float *planes, weft_error *err) {
     size_t samples = r->width * r->lines;
-    for (int p = 0; p < r->count; p++)
-        if (!r->plane[p].borrowed) fill_plane(r, &r->plane[p], planes + (size_t)p * samples);
-    if (r->s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA) make_rgb(r, planes);
+    weft_status status = WEFT_OK;
+    for (int p = 0; p < r->count && !status; p++)
+        status = finish_plane(r, &r->plane[p], planes + (size_t)p * samples, err);
+    if (!status && r->s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA) make_rgb(r, planes);
+    return status;
 }
 
 weft_status wf_exr_read_subsampled(const wf_subframe *s, float *planes, weft_error *err) {
     reading r;
     weft_status status = start(&r, s, planes, err);
     if (!status) status = decode_all(&r, err);
-    if (!status) finish(&r, planes);
+    if (!status) status = finish(&r, planes, err);
     end(&r);
     return status;
 }

@@ -363,6 +363,39 @@ static void luminance_and_chroma(void **state) {
     refused(path, -1, &plain, "8x8");
 }
 
+static float spoiled_chroma(const void *user, int channel, int x, int y) {
+    return channel == 1 && x == 20 && y == 12 ? NAN : luminance_chroma(user, channel, x, y);
+}
+
+/* A bad sample of chroma spoils the four pixels it is of, and none that interpolation reaches.
+ */
+static void bad_chroma_does_not_spread(void **state) {
+    (void)state;
+    static const float ratio[2] = {0.5f, -0.75f};
+    exr_part p = part_of(68, 44);
+    p.channels = "BY/2 RY/2 Y";
+    p.value = spoiled_chroma, p.user = ratio;
+    const char *path = temporary("spoiled.exr");
+    assert_true(exr_write(path, &p, 1));
+    wf_source_options keep = plain;
+    keep.nan_fix = WF_NAN_NONE;
+    wf_subframe *s = opened(path, -1, &keep);
+    wf_reader *reader = reader_for(&keep);
+    wf_rows rows;
+    assert_int_equal(wf_reader_rows(reader, s, 0, 44, &rows, NULL), WEFT_OK);
+    for (int y = 0; y < 44; y++)
+        for (int x = 0; x < 68; x++) {
+            bool bad = x / 2 == 10 && y / 2 == 6;
+            float is = sample(&rows, 0, x, y), should = chroma_light(0, x, y);
+            if (bad != !isfinite(is) || (!bad && fabsf(is - should) > 2e-5f))
+                fail_msg("%d,%d is %g, should be %g", x, y, (double)is, (double)should);
+        }
+    wf_reader_free(reader);
+    wf_subframe_close(s);
+    keep.nan_fix = WF_NAN_BOX3;
+    expect_light(path, &keep, 3, chroma_light, 0.1);
+}
+
 static float waving(const void *user, int channel, int x, int y) {
     (void)user;
     double wave = 0.25 * cos(0.3 * x) + 0.2 * sin(0.25 * y);
@@ -816,6 +849,7 @@ int main(void) {
         cmocka_unit_test(subsampled_beside_the_picture),
         cmocka_unit_test(luminance_and_chroma),
         cmocka_unit_test(chroma_is_interpolated),
+        cmocka_unit_test(bad_chroma_does_not_spread),
         cmocka_unit_test(luma_of_the_files_primaries),
         cmocka_unit_test(alpha_by_every_option),
         cmocka_unit_test(not_finite_before_alpha),
