@@ -9,6 +9,7 @@
 #include "convert/base/values.h"
 #include "convert/job/audio.h"
 #include "convert/job/delivery.h"
+#include "convert/job/meant.h"
 #include "filters/base/spelling.h"
 
 static void *member(weft_job *job, const wf_option_row *row) {
@@ -17,8 +18,10 @@ static void *member(weft_job *job, const wf_option_row *row) {
 
 static weft_status refuse(const wf_option_row *row, const char *value, const char *right,
                           weft_error *err) {
-    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes %s", row->shown.name,
-                   value, right);
+    const char *meant = wf_meant_by(row->shown.name, value);
+    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes %s%s%s%s",
+                   row->shown.name, value, right, meant ? " (did you mean " : "",
+                   meant ? meant : "", meant ? "?)" : "");
 }
 
 /* ---- Setters ---- */
@@ -197,6 +200,11 @@ weft_status wf_set_aperture(weft_job *job, const wf_option_row *row, const char 
                             weft_error *err) {
     char why[512];
     if (wf_aperture_parse(value, &job->aperture, why, sizeof why)) return WEFT_OK;
+    const char *meant = wf_meant_by("aperture", value);
+    if (meant)
+        return wf_fail(err, WEFT_USAGE,
+                       "--aperture: no aperture is called '%.100s'; what is like it is %s",
+                       value, meant);
     return wf_fail(err, WEFT_USAGE, "--%s: %s", row->shown.name, why);
 }
 
@@ -283,7 +291,7 @@ weft_status wf_set_codec(weft_job *job, const wf_option_row *row, const char *va
         if (!strcmp(d->kind.name, value)) return wf_set_text(job, row, value, err);
         wf_spelling_offer(&spelling, d->kind.name);
     }
-    if (spelling.best)
+    if (spelling.best && !wf_meant_by("codec", value))
         return wf_fail(err, WEFT_USAGE, "--codec: '%.100s' is unknown; did you mean %s?", value,
                        spelling.best);
     wf_delivery_codecs(there, sizeof there);

@@ -5,6 +5,7 @@
 #include "convert/base/fail.h"
 #include "convert/job/options.h"
 #include "convert/program/cmd.h"
+#include "convert/job/meant.h"
 #include "filters/base/spelling.h"
 
 /* ---- Looking options up ---- */
@@ -50,7 +51,10 @@ static weft_status unknown_option(const wf_cmd *cmd, const char *dashes, const c
     char letter, means[64] = "";
     for (size_t i = 0; wf_cmd_option_at(cmd, i, &option, &letter); i++)
         wf_spelling_offer(&spelling, option.name);
-    if (spelling.best)
+    const char *meant = wf_meant_by("", name);
+    if (meant)
+        snprintf(means, sizeof means, "it is called %s here", meant);
+    else if (spelling.best)
         snprintf(means, sizeof means, "did you mean --%s?", spelling.best);
     else
         snprintf(means, sizeof means, "'weft %s --help' lists them", cmd->name);

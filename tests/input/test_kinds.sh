@@ -88,7 +88,7 @@ ln -s loop.png loop.png
 check "links in a circle" fails "symbolic links" weft convert loop.png "${raster[@]}" -o no.y4m
 mkdir videos empty places places/inner && touch videos/a.mov videos/b.mov videos/c.txt
 check "a directory of videos" fails "2 .mov, 1 .txt" weft convert videos "${raster[@]}" -o no.y4m
-check "an empty one" fails "holds no files" weft convert empty "${raster[@]}" -o no.y4m
-check "one of directories" fails "holds no files" weft convert places "${raster[@]}" -o no.y4m
+check "an empty one" fails "no files at all" weft convert empty "${raster[@]}" -o no.y4m
+check "one of directories" fails "no files at all" weft convert places "${raster[@]}" -o no.y4m
 check "nothing was written" test ! -e no.y4m
 finish
