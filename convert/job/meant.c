@@ -17,11 +17,10 @@ static const wf_meant rows[] = {
     {"", "filter", "--aperture"},         {"", "kernel", "--aperture"},
     {"", "shutter", "--shutter-angle"},   {"", "motion-blur", "--shutter-angle"},
     {"", "gamma", "--from"},              {"", "colorspace", "--from"},
-    {"", "color-space", "--from"},        {"", "colourspace", "--from"},
+    {"", "color-space", "--from"},
     {"", "input-space", "--from"},        {"", "output-space", "--to"},
     {"", "config", "--ocio"},             {"", "lut", "--ocio"},
     {"", "start", "--frames"},            {"", "end", "--frames"},
-    
     {"", "force", "--overwrite"},         {"", "yes", "--overwrite"},
     {"", "y", "--overwrite"},             {"", "replace", "--overwrite"},
     {"", "scale", "--fit"},               {"", "pad", "--fit"},
@@ -78,9 +77,8 @@ static const wf_meant rows[] = {
     {"fields", "merged", "woven"},            {"fields", "interleaved", "woven"},
     {"fields", "weave", "woven"},             {"fields", "split", "separate"},
     {"fields", "single", "separate"},
-    {"codec", "h264", "avci100, or Y4M into ffmpeg for what else is H.264"},
-    {"codec", "avc", "avci100, or Y4M into ffmpeg for what else is H.264"},
-    {"codec", "x264", "avci100, or Y4M into ffmpeg for what else is H.264"},
+    {"codec", "avc", "h264"},
+    {"codec", "x264", "h264"},
     {"codec", "avcintra", "avci100"},         {"codec", "avc-intra", "avci100"},
     {"codec", "h265", "Y4M into ffmpeg, which makes HEVC"},
     {"codec", "hevc", "Y4M into ffmpeg, which makes HEVC"},
@@ -94,7 +92,7 @@ static const wf_meant rows[] = {
     {"codec", "uncompressed", "v210"},        {"codec", "raw", "v210"},
     {"codec", "lossless", "ffv1"},
     {"background", "black", "0"},             {"background", "white", "1"},
-    {"background", "gray", "0.18"},           {"background", "grey", "0.18"},
+    {"background", "gray", "0.18"},
     {"background", "transparent", "0"},
 };
 /* clang-format on */

@@ -112,9 +112,9 @@ weft_status wf_set_ratio(weft_job *job, const wf_option_row *row, const char *va
 /* Either way from 0. */
 weft_status wf_set_stops(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {
-    bool negative = *value == '-';
+    bool negative = *value == '-', positive = *value == '+';
     wf_rational *stops = member(job, row);
-    if (!parse_within(row, value + negative, false, stops))
+    if (!parse_within(row, value + (negative || positive), false, stops))
         return refuse_number(row, value, err);
     if (negative) stops->num = -stops->num;
     return WEFT_OK;

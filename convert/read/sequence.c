@@ -262,7 +262,8 @@ static weft_status refuse_groups(const char *input, const wf_names *names,
     if (!names->count)
         return wf_fail(
             err, WEFT_FAILED,
-            "%s: the directory holds no numbered pictures, and no files at all; give the one that they are in",
+            "%s: the directory holds no numbered pictures, and no files at all; give the "
+            "one that they are in",
             wf_path_tail(input));
     if (!groups->count)
         return wf_fail(

@@ -297,11 +297,23 @@ static void describe(wf_subframe *s) {
              l->type[0] == EXR_PIXEL_HALF ? "half" : "float");
 }
 
+/* A rate is of all parts, and some writers give it to the first alone. */
+static void read_times(wf_subframe *s) {
+    int parts = 0;
+    exr_get_count(s->exr, &parts);
+    wf_exr_read_times(s->exr, s->part, &s->info);
+    for (int p = 0; p < parts && !wf_ratio_given(s->info.rate) && !*s->info.no_rate; p++) {
+        wf_rational time_s = s->info.time_s;
+        wf_exr_read_times(s->exr, p, &s->info);
+        s->info.time_s = time_s;
+    }
+}
+
 static void read_attributes(wf_subframe *s) {
     float aspect = 1;
     exr_get_pixel_aspect_ratio(s->exr, s->part, &aspect);
     s->info.pixel_aspect = aspect > 1e-3f && aspect < 1e3f ? (double)aspect : 1;
-    wf_exr_read_times(s->exr, s->part, &s->info);
+    read_times(s);
     s->info.band_lines = s->layout.chunk_lines;
     read_timecode(s);
     read_raster(s);

@@ -67,6 +67,9 @@ oiiotool N.part.exr rgba.part.exr --siappend diffuse.part.exr --siappend -o part
 check "the part with a picture" gives ".5 .25 .1" parts.exr
 check "a layer in another part" gives ".2 .3 .4" parts.exr --layer diffuse
 check "a part by number" gives ".2 .3 .4" parts.exr --part 2
+oiiotool N.part.exr --attrib:type=float framesPerSecond 24 rgba.part.exr --siappend -o rate.exr
+check "a rate that the first part alone has" exits 0 weft convert rate.exr --raster 16x12@24p --overwrite -o out.####.exr
+check "a part in any case" gives ".5 .25 .1" parts.exr --part RGBA
 check "a layer that is not there" exits 1 weft convert parts.exr --layer specular "${raster[@]}" -o no.exr
 check "all parts and layers are listed" \
     says "part 0 'N': N (X Y Z); part 1 'rgba': R G B A; part 2 'diffuse': diffuse (R G B)"

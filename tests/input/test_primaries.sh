@@ -41,6 +41,7 @@ check "are refused" says "--from"
 # ---- Exposure ----
 
 check "a stop more" light "1.6 .2 .2" ap1.exr --exposure 1
+check "with its sign" light "1.6 .2 .2" ap1.exr --exposure +1
 check "half a stop less" light ".5656854 .0707107 .0707107" ap1.exr --exposure -0.5
 check "of codes" luma "$(python3 -c "print(64 + 876 * (((128/255 + .055) / 1.055) ** 2.4 / 2) ** (1 / 2.4))")" .6 plain.png --exposure -1
 check "no number" exits 2 weft convert ap1.exr --exposure bright "${raster[@]}" -o no.y4m

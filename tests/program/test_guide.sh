@@ -30,7 +30,7 @@ done
 frames comp.%04d.exr 16 R,G,B,A .18,.18,.18,1 -d half
 frames titles/titles_%05d.png 16 R,G,B,A .2,.2,.2,.5 -d uint16
 frames credits_%05d.tif 16 R,G,B .46,.46,.46 -d uint16
-ffmpeg -v error -f lavfi -i color=gray:s=192x108:r=240:d=0.2 -color_primaries bt709 -color_trc bt709 -colorspace bt709 \
+ffmpeg -v error -f lavfi -i color=gray:s=192x108:r=240:d=0.2 -f lavfi -i sine=sample_rate=48000:d=0.2 -c:a pcm_s16le -color_primaries bt709 -color_trc bt709 -colorspace bt709 \
     -color_range tv -c:v ffv1 -y capture.mkv
 ffmpeg -v error -f lavfi -i color=gray:s=192x108:r=60:d=1 -vf "setpts=N/60/TB+mod(N\,3)/600/TB" -fps_mode vfr \
     -pix_fmt yuv420p -color_primaries bt2020 -color_trc arib-std-b67 -colorspace bt2020nc -color_range tv \
