@@ -15,7 +15,7 @@ warns()
 
 # ---- TIFF ----
 
-p3=(319=.68,.32,.265,.69,.15,.06 318=.3127,.329)
+p3=("319=.68,.32,.265,.69,.15,.06" "318=.3127,.329")
 for order in II MM; do
     tiff p3.tif 32 3 2 - $order .5 .4 .3 "${p3[@]}"
     check "floats keep their primaries, $order" light ".5 .4 .3" p3.tif

@@ -47,7 +47,8 @@ while read -r line; do
     *phone*) [ -s phone.mp4 ] || { skip_part "ffmpeg has no libx264"; continue; } ;;
     esac
     check "$line" eval "exits 0 $line" </dev/null
-    check "its output: $line" test -s "${line##* -o }" -o -s "$(sed 's/.* -o \([^ ]*\).*/\1/' <<<"$line")"
+    made=${line##* -o }
+    check "its output: $line" test -s "${made%% *}"
 done <lines
 
 finish
