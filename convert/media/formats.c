@@ -186,7 +186,10 @@ static weft_status examine_webp(const exam *x) {
                          (uint64_t)head[7] << 24;
         return bytes + 8 <= x->bytes ? WEFT_OK : damaged(x, "it ends before its picture does");
     }
-    return wf_fail(x->err, WEFT_FAILED, "%.700s: it is RIFF, and not a WebP picture", x->path);
+    weft_status status = wf_refuse_kind(x->path, x->err);
+    return status ? status
+                  : wf_fail(x->err, WEFT_FAILED, "%.700s: it is RIFF, and not a WebP picture",
+                            x->path);
 }
 
 #define MAGIC_MOST 8

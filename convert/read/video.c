@@ -148,7 +148,8 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
         return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
     else if (is_y4m(path))
         *kind = &wf_video_y4m;
-    else if (wf_begins_as_picture(path) ||
+    else if ((wf_begins_as_picture(path) && !wf_name_ends_in(path, ".mjpeg") &&
+              !wf_name_ends_in(path, ".mjpg")) ||
              (wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif")))
         *kind = &wf_video_pictures;
     return WEFT_OK;
