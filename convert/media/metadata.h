@@ -25,6 +25,7 @@ typedef struct wf_metadata {
     char container[16]; /* libavformat's name: "mov", "mxf", "matroska" */
     bool of_mpeg4;      /* "mov" with the brand of MP4 and its kin, not of QuickTime */
     char codec[24], profile[48], pixels[24];
+    int64_t bit_rate;     /* a second, as the stream says; 0: not said */
     int level;            /* of the codec, as libavcodec numbers it */
     char sound_codec[24]; /* of the first stream of sound */
     int width_px, lines;  /* as coded */

@@ -63,12 +63,14 @@ static weft_status list_profiles(bool as_json, weft_error *err) {
     for (size_t i = 0; (p = wf_profile_at(i)); i++) {
         if (!as_json) {
             printf("  %-22s %s\n", p->name, p->about);
+            if (p->not_checked) printf("  %-22s not checked: %s\n", "", p->not_checked);
             continue;
         }
         wf_json_open(&json, NULL, '{');
         wf_json_text(&json, "name", p->name);
         wf_json_text(&json, "about", p->about);
         wf_json_text(&json, "rasters", p->rasters);
+        wf_json_text(&json, "not_checked", p->not_checked);
         wf_json_close(&json);
     }
     if (as_json) wf_json_close(&json);

@@ -28,8 +28,10 @@ if ffmpeg -hide_banner -encoders 2>/dev/null | grep -q libx264; then
     check "AVC-Intra" made v.mxf --codec avci100 --raster 1080i50 --timecode 10:00:00:00 --audio silent:4
     check "is right" right v.mxf --profile as11-uk-dpp-hd
     check "start" wrong start v.mxf item 1501 0 0000000000000000 --profile as11-uk-dpp-hd
-    quiet_ffmpeg -i v.mxf -map 0 -c:a copy -c:v libx264 -profile:v high422 -pix_fmt yuv422p -flags +ildct+ilme -top 1 \
-        -color_primaries 1 -color_trc 1 -colorspace 1 -timecode 10:00:00:00 8.mxf
+    quiet_ffmpeg -i v.mxf -map 0:v -c:v libx264 -g 1 -bf 0 -profile:v high422 -level 41 -pix_fmt yuv422p -flags +ildct+ilme \
+        -top 1 -color_primaries 1 -color_trc 1 -colorspace 1 -x264-params aud=1 8.264
+    check "as large as pictures of AVC-Intra" python3 "$WEFT_SOURCE/tests/verify/pad_pictures.py" 8.264 padded.264 568832
+    quiet_ffmpeg -i padded.264 -i v.mxf -map 0:v -map 1:a -c copy -timecode 10:00:00:00 8.mxf
     check "bits" wrong bits 8.mxf item 3303 0 00 --profile as11-uk-dpp-hd
     check "tracks of AVC-Intra" made t.mxf --codec avci100 --raster 1080i50 --timecode 10:00:00:00 --audio silent:2
     check "tracks" only tracks t.mxf --profile as11-uk-dpp-hd

@@ -24,18 +24,20 @@ enum {
     FIELDS = 64,     /* the raster is interlaced */
     FILES = 128,     /* it is an image sequence */
     STRUCTURE = 256, /* its container is one whose structure is read */
+    CODEC = 512,     /* it is the profile's */
 };
 
-/* Whether every file is put to a check, or only where the profile has a text, or a number, at
- * this offset. */
+/* Whether every file is put to a check, or only where the profile has a text, a number or a
+ * flag at this offset. */
 typedef struct demand {
-    enum { OF_ALL, OF_TEXT, OF_NUMBER } kind;
+    enum { OF_ALL, OF_TEXT, OF_NUMBER, OF_FLAG } kind;
     size_t offset; /* in wf_profile */
 } demand;
 
 /* clang-format off */
 #define TEXT(member)   {OF_TEXT, offsetof(wf_profile, member)}
 #define NUMBER(member) {OF_NUMBER, offsetof(wf_profile, member)}
+#define FLAG(member)   {OF_FLAG, offsetof(wf_profile, member)}
 #define ALL            {OF_ALL, 0}
 
 /* by: what demands it, for people; %s becomes the raster, and the profile that it is of. What a
@@ -52,6 +54,13 @@ static const struct check {
     {"header",     wf_check_header,     STRUCTURE | MXF, ALL, "SMPTE ST 377-1"},
     {"container",  wf_check_container,  ALWAYS, TEXT(container), "%s"},
     {"codec",      wf_check_codec,      ALWAYS, TEXT(codec), "%s"},
+    {"codec profile", wf_check_codec_profile, CONTAINER | CODEC, TEXT(codec_profile), "%s"},
+    {"level",      wf_check_level,      CONTAINER | CODEC, NUMBER(level), "%s"},
+    {"chroma",     wf_check_chroma,     CONTAINER | CODEC, TEXT(chroma), "%s"},
+    {"groups",     wf_check_groups,     CONTAINER | CODEC, NUMBER(group), "%s"},
+    {"bit rate",   wf_check_bit_rate,   CONTAINER | CODEC | PIXELS, NUMBER(bit_rate), "%s"},
+    {"frame size", wf_check_frame_bytes, CONTAINER | CODEC, TEXT(frame_bytes), "%s"},
+    {"partitions", wf_check_partitions, STRUCTURE | MXF, FLAG(closed), "%s"},
     {"bits",       wf_check_bits,       PIXELS, NUMBER(bits), "%s"},
     {"raster",     wf_check_raster,     PIXELS, ALL, "weft rasters"},
     {"size",       wf_check_size,       PIXELS | RASTER, ALL, "%s"},
@@ -80,8 +89,12 @@ static const struct check {
     {"channels",   wf_check_channels,   ALWAYS, NUMBER(sound_channels), "%s"},
     {"tracks",     wf_check_tracks,     ALWAYS, TEXT(channels), "%s"},
     {"sound bits", wf_check_sound_bits, ALWAYS, NUMBER(sound_bits), "%s"},
+    {"sound codec", wf_check_sound_codec, SOUND, TEXT(sound_codec), "%s"},
+    {"mono",       wf_check_mono,       SOUND, FLAG(mono), "%s"},
+    {"one stream", wf_check_one_sound,  SOUND, FLAG(one_sound), "%s"},
     {"levels",     wf_check_levels,     PIXELS, ALL, "EBU R 103"},
     {"reserved",   wf_check_reserved,   PIXELS, ALL, "Rec. ITU-R BT.601 and BT.709"},
+    {"not checked", wf_check_not,       ALWAYS, TEXT(not_checked), "%s"},
 };
 /* clang-format on */
 
@@ -90,13 +103,16 @@ _Static_assert(sizeof checks / sizeof *checks <= WF_FINDINGS_MOST,
 
 /* What the file has, in the bits of a check's `applies`. */
 static unsigned nature_of(const wf_subject *s) {
+    const char *codec = s->profile ? s->profile->codec : NULL;
+    bool of_profile = s->contained && codec && !strcmp(s->metadata.codec, codec);
     bool mov = s->structure.quicktime;
     bool mxf = s->contained && !strcmp(s->metadata.container, "mxf");
     return (s->trouble ? 0 : PIXELS) | (s->raster_known ? RASTER : 0) |
            (s->raster_known && s->raster.scan == WF_INTERLACED ? FIELDS : 0) |
            (s->contained ? CONTAINER : 0) | (mov ? MOV : 0) | (mxf ? MXF : 0) |
            (s->contained && s->metadata.sound_streams ? SOUND : 0) |
-           (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0);
+           (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0) |
+           (of_profile ? CODEC : 0);
 }
 
 static bool is_asked(demand asked, const wf_profile *profile) {
@@ -104,6 +120,7 @@ static bool is_asked(demand asked, const wf_profile *profile) {
     if (!profile) return false;
     const void *member = (const char *)profile + asked.offset;
     if (asked.kind == OF_NUMBER) return *(const int *)member != 0;
+    if (asked.kind == OF_FLAG) return *(const bool *)member;
     return *(const char *const *)member != NULL;
 }
 

@@ -10,49 +10,94 @@
 #define MOV(codec_) .container = "mov", .codec = codec_, .timecode = true
 #define MKV(codec_) .container = "matroska", .codec = codec_
 #define BOTH_1080I  "1080i50 1080i59.94"
+#define PCM         .sound_codec = "pcm_s16le pcm_s24le"
+
+/* MPEG-2's 4:2:2 Profile at High Level (Rec. ITU-T H.262, tables 8-2 and 8-5), of 50 Mb/s:
+ * groups as bmx and libavcodec make them for these. */
+#define XDCAM(raster, pictures)                                                                \
+    MXF("mpeg2video"), .rasters = raster, .bits = 8, .codec_profile = "4:2:2", .level = 2,     \
+                       .chroma = "yuv422p", .group = pictures, .between = true,                \
+                       .bit_rate = 50000000, PCM, .mono = true,                                \
+                       .not_checked = "closed groups and their order, quantizer tables, "      \
+                                      "system item, ancillary data, partitions of the body"
+
+/* AVC-Intra 100: frames of one size, of which the parameter sets are 512 bytes; the sizes are
+ * those that FFmpeg's mxfenc.c has for RP 2027's labels. */
+#define AVCI(raster, bytes)                                                                    \
+    MXF("h264"), .rasters = raster, .bits = 10, .codec_profile = "High 4:2:2 Intra",           \
+                 .level = 41, .chroma = "yuv422p", .group = 1, .frame_bytes = bytes, PCM,      \
+                 .mono = true,                                                                 \
+                 .not_checked = "parameter sets as RP 2027 has them, slices, entropy coding, " \
+                                "partitions of the body"
+#define AT_50    "568832 568320"
+#define AT_59_94 "472576 472064"
+#define AT_720   "284672 284160"
+
+/* D-10: MPEG-2's 4:2:2 Profile at Main Level, every picture whole and of one size. */
+#define IMX(raster, lines_, bytes)                                                             \
+    MXF("mpeg2video"), .rasters = raster, .bits = 8, .coded_lines = lines_,                    \
+                       .codec_profile = "4:2:2", .level = 5, .chroma = "yuv422p", .group = 1,  \
+                       .frame_bytes = bytes, PCM, .channels = "0 2 4 8", .one_sound = true,    \
+                       .not_checked = "quantizer tables and VBV delay of ST 356, AES3 "        \
+                                      "elements and system item of ST 386"
+
+#define DV50(raster, bytes)                                                                    \
+    .codec = "dvvideo", .rasters = raster, .bits = 8, .chroma = "yuv422p", .group = 1,         \
+    .frame_bytes = bytes, .not_checked = "sound within the frames, subcode"
+/* 120, 185 and 220 Mb/s by the compression IDs of ST 2019-1, as FFmpeg's dnxhddata.c has them.
+ */
+#define DNXHD(raster)                                                                          \
+    .codec = "dnxhd", .rasters = raster, .codec_profile = "DNXHD", .group = 1,                 \
+    .chroma = "yuv422p", .frame_bytes = "606208 917504",                                       \
+    .not_checked = "compression ID, macroblocks"
+#define PRORES(raster)                                                                         \
+    MOV("prores"), .rasters = raster, .bits = 10, .chroma = "yuv422p", .group = 1,             \
+                   .not_checked = "which of the 422 kinds it is, bit rate"
+#define RAW(raster, bytes)                                                                     \
+    MOV("v210"), .rasters = raster, .bits = 10, .group = 1, .frame_bytes = bytes,              \
+                 .not_checked = "the padding of lines"
+#define HDF(tracks) .closed = true, .sound_channels = tracks, .sound_bits = 24
+#define DPP         .closed = true, .start = "10:00:00:00", .channels = "4 16", .sound_bits = 24
 
 static const wf_profile profiles[] = {
-    {"xdcamhd422-1080i50", "XDCAM HD422 in MXF OP1a (SMPTE RDD 9)", MXF("mpeg2video"),
-     .rasters = "1080i50", .bits = 8},
-    {"xdcamhd422-1080i59.94", "the same at 29.97 frames a second", MXF("mpeg2video"),
-     .rasters = "1080i59.94", .bits = 8},
-    {"xdcamhd422-720p50", "the same, progressive", MXF("mpeg2video"), .rasters = "720p50",
-     .bits = 8},
-    {"xdcamhd422-720p59.94", "the same, progressive", MXF("mpeg2video"), .rasters = "720p59.94",
-     .bits = 8},
-    {"as-hdf01a", "after ARD_ZDF_HDF01a: XDCAM HD422 1080i50, 8 channels of sound",
-     MXF("mpeg2video"), .rasters = "1080i50", .bits = 8, .sound_channels = 8, .sound_bits = 24},
-    {"as-hdf02a", "after ARD_ZDF_HDF02a: AVC-Intra 100 1080i50, 8 channels of sound",
-     MXF("h264"), .rasters = "1080i50", .bits = 10, .sound_channels = 8, .sound_bits = 24},
+    {"xdcamhd422-1080i50", "XDCAM HD422 in MXF OP1a (SMPTE RDD 9)", XDCAM("1080i50", 12)},
+    {"xdcamhd422-1080i59.94", "the same at 29.97 frames a second", XDCAM("1080i59.94", 15)},
+    {"xdcamhd422-720p50", "the same, progressive", XDCAM("720p50", 15)},
+    {"xdcamhd422-720p59.94", "the same, progressive", XDCAM("720p59.94", 15)},
+    {"as-hdf01a", "after ARD_ZDF_HDF01a: XDCAM HD422 1080i50, 8 mono tracks of sound",
+     XDCAM("1080i50", 12), HDF(8)},
+    {"as-hdf01b", "after ARD_ZDF_HDF01b: the same with 16 tracks", XDCAM("1080i50", 12),
+     HDF(16)},
+    {"as-hdf02a", "after ARD_ZDF_HDF02a: AVC-Intra 100 1080i50, 8 mono tracks of sound",
+     AVCI("1080i50", AT_50), HDF(8)},
+    {"as-hdf02b", "after ARD_ZDF_HDF02b: the same with 16 tracks", AVCI("1080i50", AT_50),
+     HDF(16)},
+    {"as-hdf03a", "after ARD_ZDF_HDF03a: AVC-Intra 100 720p50, 8 mono tracks of sound",
+     AVCI("720p50", AT_720), HDF(8)},
+    {"as-hdf03b", "after ARD_ZDF_HDF03b: the same with 16 tracks", AVCI("720p50", AT_720),
+     HDF(16)},
     {"as11-uk-dpp-hd",
      "the file of AMWA AS-11 UK DPP HD: AVC-Intra 100 1080i50, 4 or 16 tracks, from "
      "10:00:00:00",
-     MXF("h264"), .rasters = "1080i50", .start = "10:00:00:00", .bits = 10, .channels = "4 16",
-     .sound_bits = 24},
-    {"avci100-1080i50", "AVC-Intra 100 (SMPTE RP 2027)", MXF("h264"), .rasters = "1080i50",
-     .bits = 10},
-    {"avci100-1080i59.94", "AVC-Intra 100 (SMPTE RP 2027)", MXF("h264"),
-     .rasters = "1080i59.94", .bits = 10},
-    {"imx50-625", "D-10 of 50 Mb/s (SMPTE ST 356 and 386)", MXF("mpeg2video"),
-     .rasters = "625i 625i-wide", .bits = 8, .coded_lines = 608},
-    {"imx50-525", "D-10 of 50 Mb/s (SMPTE ST 356 and 386)", MXF("mpeg2video"),
-     .rasters = "525i-imx 525i-imx-wide", .bits = 8, .coded_lines = 512},
-    {"dvcpro50-525", "DV of 50 Mb/s (SMPTE ST 314)", .codec = "dvvideo",
-     .rasters = "525i-dv 525i-dv-wide", .bits = 8},
-    {"dvcpro50-625", "DV of 50 Mb/s (SMPTE ST 314)", .codec = "dvvideo",
-     .rasters = "625i-dv 625i-dv-wide", .bits = 8},
-    {"dnxhd-1080i50", "DNxHD (SMPTE ST 2019-1)", .codec = "dnxhd", .rasters = "1080i50"},
-    {"dnxhd-1080i59.94", "DNxHD (SMPTE ST 2019-1)", .codec = "dnxhd", .rasters = "1080i59.94"},
-    {"prores-1080i50", "ProRes in QuickTime (SMPTE RDD 36)", MOV("prores"),
-     .rasters = "1080i50", .bits = 10},
-    {"prores-1080i59.94", "ProRes in QuickTime (SMPTE RDD 36)", MOV("prores"),
-     .rasters = "1080i59.94", .bits = 10},
-    {"v210-525", "uncompressed, 486 lines", MOV("v210"), .rasters = "525i 525i-wide",
-     .bits = 10},
-    {"v210-625", "uncompressed", MOV("v210"), .rasters = "625i 625i-wide", .bits = 10},
-    {"v210-1080i", "uncompressed", MOV("v210"), .rasters = BOTH_1080I, .bits = 10},
+     AVCI("1080i50", AT_50), DPP},
+    {"avci100-1080i50", "AVC-Intra 100 (SMPTE RP 2027)", AVCI("1080i50", AT_50)},
+    {"avci100-1080i59.94", "AVC-Intra 100 (SMPTE RP 2027)", AVCI("1080i59.94", AT_59_94)},
+    {"imx50-625", "D-10 of 50 Mb/s (SMPTE ST 356 and 386)",
+     IMX("625i 625i-wide", 608, "250000")},
+    {"imx50-525", "D-10 of 50 Mb/s (SMPTE ST 356 and 386)",
+     IMX("525i-imx 525i-imx-wide", 512, "208540 208541")},
+    {"dvcpro50-525", "DV of 50 Mb/s (SMPTE ST 314)", DV50("525i-dv 525i-dv-wide", "240000")},
+    {"dvcpro50-625", "DV of 50 Mb/s (SMPTE ST 314)", DV50("625i-dv 625i-dv-wide", "288000")},
+    {"dnxhd-1080i50", "DNxHD (SMPTE ST 2019-1)", DNXHD("1080i50")},
+    {"dnxhd-1080i59.94", "DNxHD (SMPTE ST 2019-1)", DNXHD("1080i59.94")},
+    {"prores-1080i50", "ProRes in QuickTime (SMPTE RDD 36)", PRORES("1080i50")},
+    {"prores-1080i59.94", "ProRes in QuickTime (SMPTE RDD 36)", PRORES("1080i59.94")},
+    {"v210-525", "uncompressed, 486 lines (Apple's TN2162)", RAW("525i 525i-wide", "933120")},
+    {"v210-625", "uncompressed (Apple's TN2162)", RAW("625i 625i-wide", "1105920")},
+    {"v210-1080i", "uncompressed (Apple's TN2162)", RAW(BOTH_1080I, "5529600")},
     {"ffv1-archive", "FFV1 in Matroska (RFC 9043), of any interlaced raster", MKV("ffv1"),
-     .rasters = "525i 525i-wide 525i-imx 625i 625i-wide " BOTH_1080I},
+     .rasters = "525i 525i-wide 525i-imx 625i 625i-wide " BOTH_1080I, .group = 1,
+     .not_checked = "version 3 and checksums of slices"},
 };
 
 #define PROFILES (sizeof profiles / sizeof *profiles)

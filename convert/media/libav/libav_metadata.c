@@ -34,6 +34,7 @@ static void read_video(const AVStream *s, wf_metadata *c) {
     copy(c->profile, sizeof c->profile, avcodec_profile_name(p->codec_id, p->profile));
     copy(c->pixels, sizeof c->pixels, av_get_pix_fmt_name((enum AVPixelFormat)p->format));
     c->level = p->level;
+    c->bit_rate = p->bit_rate;
     c->width_px = p->width;
     c->lines = p->height;
     c->rate = ratio_of(s->avg_frame_rate.num ? s->avg_frame_rate : s->r_frame_rate);
