@@ -22,6 +22,12 @@ typedef struct wf_hits {
 
 void wf_hits_clear(wf_hits *hits);
 
+static inline void wf_hits_copy(const wf_hits *from, int i, wf_hits *to, int k) {
+    to->s[k] = from->s[i];
+    to->solid[k] = from->solid[i];
+    to->entering[k] = from->entering[i];
+}
+
 /* An object's program with its solids' runs. Steps of kind WF_STEP_SOLID count runs from 0 on.
  */
 typedef struct wf_csg {

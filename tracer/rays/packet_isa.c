@@ -8,6 +8,18 @@
 
 /* ---- Rays into spaces ---- */
 
+static inline double row_of(const double m[3], double shift, double x, double y, double z) {
+    return m[0] * x + m[1] * y + m[2] * z + shift;
+}
+
+/* What is left where all cancels is rounding, and none: a ray along a plane must not meet it
+ * far away. */
+static inline double row_along_of(const double m[3], double x, double y, double z) {
+    double p = m[0] * x, q = m[1] * y, r = m[2] * z, sum = p + q + r;
+    double size = fabs(p) + fabs(q) + fabs(r);
+    return fabs(sum) > size * 0x1p-50 ? sum : 0;
+}
+
 /* One row of a matrix over x, y, z. */
 static void row(const double m[3], double shift, int count, const double *restrict x,
                 const double *restrict y, const double *restrict z, double *restrict to) {
@@ -16,16 +28,11 @@ static void row(const double m[3], double shift, int count, const double *restri
         to[i] = a * x[i] + b * y[i] + c * z[i] + shift;
 }
 
-/* The same of directions. What is left where all cancels is rounding, and none: a ray along a
- * plane must not meet it far away. */
+/* The same of directions. */
 static void row_along(const double m[3], int count, const double *restrict x,
                       const double *restrict y, const double *restrict z, double *restrict to) {
-    double a = m[0], b = m[1], c = m[2];
-    for (int i = 0, n = wf_places(count); i < n; i++) {
-        double p = a * x[i], q = b * y[i], r = c * z[i], sum = p + q + r;
-        double size = fabs(p) + fabs(q) + fabs(r);
-        to[i] = fabs(sum) > size * 0x1p-50 ? sum : 0;
-    }
+    const double r[3] = {m[0], m[1], m[2]};
+    for (int i = 0, n = wf_places(count); i < n; i++) to[i] = row_along_of(r, x[i], y[i], z[i]);
 }
 
 static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
@@ -37,6 +44,19 @@ static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
     row_along(m[1], from->count, from->dx, from->dy, from->dz, to->dy);
     row_along(m[2], from->count, from->dx, from->dy, from->dz, to->dz);
     to->count = from->count;
+}
+
+static void place_one(const wf_affine *a, const wf_rays *from, int ray, wf_rays *to) {
+    double ox = from->ox[ray], oy = from->oy[ray], oz = from->oz[ray];
+    double dx = from->dx[ray], dy = from->dy[ray], dz = from->dz[ray];
+    const double shift[3] = {a->d.x, a->d.y, a->d.z};
+    double *const o[3] = {to->ox, to->oy, to->oz}, *const d[3] = {to->dx, to->dy, to->dz};
+    for (int k = 0; k < 3; k++) {
+        double at = row_of(a->m[k], shift[k], ox, oy, oz);
+        double along = row_along_of(a->m[k], dx, dy, dz);
+        for (int i = 0; i < 8; i++) o[k][i] = at, d[k][i] = along;
+    }
+    to->count = 1;
 }
 
 static void drift_in(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
@@ -135,28 +155,40 @@ static void reach(const wf_rays *r, const double *s, wf_points *p) {
     }
 }
 
-/* The next end of a run along each ray; the arithmetic is done on all, and chosen from, so that
- * the loop is one of vectors. */
+/* The next end of a run along a ray; the arithmetic is done on all, and chosen from, so that
+ * loops are those of vectors. */
+static inline void next_end(double in, double out, double rounding, int64_t solid, double *s,
+                            int64_t *hit, int64_t *entering) {
+    int64_t enters = in > 0 ? 1 : 0;
+    double end = in > 0 ? in : out, best = *s;
+    double apart = rounding + end * WF_ROUNDING;
+    double limit = solid < *hit ? best + apart : best - apart;
+    end = end > 0 ? end : HUGE_VAL;
+    int64_t take = end <= limit && end < HUGE_VAL ? 1 : 0;
+    *s = take ? end : best;
+    *hit = take ? solid : *hit;
+    *entering = take ? enters : *entering;
+}
+
 static void nearer_end(const double *restrict in, const double *restrict out,
                        const double *restrict rounding, int64_t solid, int count,
                        wf_hits *restrict hits) {
-    for (int i = 0, n = wf_places(count); i < n; i++) {
-        int64_t enters = in[i] > 0 ? 1 : 0;
-        double s = in[i] > 0 ? in[i] : out[i], best = hits->s[i];
-        double apart = rounding[i] + s * WF_ROUNDING;
-        double limit = solid < hits->solid[i] ? best + apart : best - apart;
-        s = s > 0 ? s : HUGE_VAL;
-        int64_t take = s <= limit && s < HUGE_VAL ? 1 : 0;
-        hits->s[i] = take ? s : best;
-        hits->solid[i] = take ? solid : hits->solid[i];
-        hits->entering[i] = take ? enters : hits->entering[i];
-    }
+    for (int i = 0, n = wf_places(count); i < n; i++)
+        next_end(in[i], out[i], rounding[i], solid, &hits->s[i], &hits->solid[i],
+                 &hits->entering[i]);
 }
 
-static void nearer(const wf_runs *runs, const double *rounding, int solid, int count,
-                   wf_hits *hits) {
-    nearer_end(runs->in[0], runs->out[0], rounding, solid, count, hits);
-    nearer_end(runs->in[1], runs->out[1], rounding, solid, count, hits);
+static void nearer(const wf_runs *runs, int most_runs, const double *rounding, int solid,
+                   int count, wf_hits *hits) {
+    for (int k = 0; k < most_runs; k++)
+        nearer_end(runs->in[k], runs->out[k], rounding, solid, count, hits);
+}
+
+static void nearer_one(const wf_runs *runs, int most_runs, double rounding, int solid, int ray,
+                       wf_hits *hits) {
+    for (int k = 0; k < most_runs; k++)
+        next_end(runs->in[k][0], runs->out[k][0], rounding, solid, &hits->s[ray],
+                 &hits->solid[ray], &hits->entering[ray]);
 }
 
 /* ---- Boxes ---- */
@@ -215,5 +247,6 @@ static void no_second_run(wf_runs *runs, int count) {
 }
 
 const wf_packet_ops WF_ISA_TABLE(wf_packet_ops) = {
-    place, drift_in, spin_in,  find_sincos,   spin_out, place_normals, reach, nearer,
-    unit,  rounding, farthest, no_second_run, box};
+    place,    place_one,     drift_in, spin_in,       find_sincos,
+    spin_out, place_normals, reach,    nearer,        nearer_one,
+    unit,     rounding,      farthest, no_second_run, box};

@@ -1,4 +1,4 @@
-/* Walks of single rays through trees of boxes. */
+/* Walks of rays and shafts of rays through trees of boxes. */
 #include "tracer/rays/walk.h"
 
 #include <math.h>
@@ -9,76 +9,105 @@
 #include <immintrin.h>
 #endif
 
-/* By so much of the numbers' size boxes are wider: what rounding may do to a ray on its way
- * into a solid's space is far less, and so is how near to each other ends of runs are one. */
-#define SLACK 0x1p-38
+/* ---- Eight boxes side by side ---- */
 
-/* A ray made ready: along each axis, what is less from a box's first and last plane. */
-typedef struct way {
-    double first[3], last[3], inverse[3];
-    bool down[3];
-} way;
-
-static way make_way(const wf_walk_tree *tree, const wf_walk *w) {
-    way r;
-    double size = tree->size;
-    for (int k = 0; k < 3; k++) size = fabs(w->o[k]) > size ? fabs(w->o[k]) : size;
-    for (int k = 0; k < 3; k++) {
-        double up = w->o[k] + size * SLACK, low = w->o[k] - size * SLACK;
-        r.down[k] = signbit(w->d[k]);
-        r.first[k] = r.down[k] ? low : up;
-        r.last[k] = r.down[k] ? up : low;
-        r.inverse[k] = 1 / w->d[k];
-    }
-    return r;
-}
-
-/* Eight boxes side by side, whatever the instruction set makes of them. */
 typedef double lanes __attribute__((vector_size(64), may_alias));
 typedef int64_t lane_mask __attribute__((vector_size(64), may_alias));
 
 /* Vectors are passed between functions of this file only, which are inlined. */
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-static inline lanes choose(lane_mask mask, lanes a, lanes b) {
-    return (lanes)(((lane_mask)a & mask) | ((lane_mask)b & ~mask));
-}
-
-/* A bit for each lane that the mask has. */
-static inline unsigned bits_of(lane_mask mask) {
 #if defined(__AVX512F__)
-    return _mm512_movepi64_mask((__m512i)mask);
+static inline lanes larger(lanes a, lanes b) {
+    return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+}
+
+static inline lanes smaller(lanes a, lanes b) {
+    return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
+}
+
+static inline unsigned not_over(lanes a, lanes b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+}
 #else
+/* b where a is no number, as the processor's own maximum is. */
+static inline lanes larger(lanes a, lanes b) {
+    lane_mask over = a > b;
+    return (lanes)(((lane_mask)a & over) | ((lane_mask)b & ~over));
+}
+
+static inline lanes smaller(lanes a, lanes b) {
+    lane_mask under = a < b;
+    return (lanes)(((lane_mask)a & under) | ((lane_mask)b & ~under));
+}
+
+/* A bit for each lane where a <= b. */
+static inline unsigned not_over(lanes a, lanes b) {
+    lane_mask mask = a <= b;
     unsigned bits = 0;
-    for (unsigned k = 0; k < WF_WALK_WIDTH; k++) bits |= (unsigned)mask[k] & 1u << k;
+    for (unsigned k = 0; k < WF_TREE_WIDTH; k++) bits |= (unsigned)mask[k] & 1u << k;
     return bits;
+}
 #endif
+
+static inline lanes of(double v) {
+    return v - (lanes){0};
 }
 
-/* The boxes that the ray meets, a bit each, and where. What is no number, of a ray along a
- * plane, counts as met. */
-static inline unsigned meet_boxes(const wf_walk_node *node, const way *r, double most,
-                                  lanes *near) {
-    lanes from = {0}, to = most - (lanes){0};
-    for (int k = 0; k < 3; k++) {
-        const lanes *low = (const lanes *)node->low[k], *high = (const lanes *)node->high[k];
-        lanes a = ((r->down[k] ? *high : *low) - r->first[k]) * r->inverse[k];
-        lanes b = ((r->down[k] ? *low : *high) - r->last[k]) * r->inverse[k];
-        from = choose(a > from, a, from);
-        to = choose(b < to, b, to);
-    }
-    *near = from;
-    return bits_of(from <= to);
-}
-
+/* What waits to be looked at. */
 typedef struct stop {
     double near;
     int32_t node;
 } stop;
 
+/* ---- Rays ---- */
+
+/* By so much of the numbers' size boxes are wider for a ray: what rounding may do to it on its
+ * way into a solid's space is far less, and so is how near to each other ends of runs are one.
+ */
+#define WIDER 0x1p-38
+
+/* A ray made ready: along each axis, which plane of a box it meets first, and what is less from
+ * that plane and the last. */
+typedef struct way {
+    lanes first[3], last[3], inverse[3];
+    int first_plane[3], last_plane[3];
+} way;
+
+static inline way make_way(const wf_tree *tree, const wf_walk *w) {
+    way r;
+    double size = tree->size;
+    for (int k = 0; k < 3; k++) size = fabs(w->o[k]) > size ? fabs(w->o[k]) : size;
+    for (int k = 0; k < 3; k++) {
+        double up = w->o[k] + size * WIDER, low = w->o[k] - size * WIDER;
+        bool down = signbit(w->d[k]);
+        r.first[k] = of(down ? low : up);
+        r.last[k] = of(down ? up : low);
+        r.inverse[k] = of(1 / w->d[k]);
+        r.first_plane[k] = down ? 3 + k : k;
+        r.last_plane[k] = down ? k : 3 + k;
+    }
+    return r;
+}
+
+/* The boxes that the ray meets, a bit each, and where. What is no number, of a ray along a
+ * plane, counts as met. */
+static inline unsigned meet_boxes(const wf_tree_node *node, const way *r, double most,
+                                  lanes *near) {
+    lanes from = of(0), to = of(most);
+    for (int k = 0; k < 3; k++) {
+        lanes a = *(const lanes *)node->plane[r->first_plane[k]];
+        lanes b = *(const lanes *)node->plane[r->last_plane[k]];
+        from = larger((a - r->first[k]) * r->inverse[k], from);
+        to = smaller((b - r->last[k]) * r->inverse[k], to);
+    }
+    *near = from;
+    return not_over(from, to) & node->used;
+}
+
 /* Puts what was met behind the stops there are, the nearest last. */
-static inline int add_stops(const wf_walk_node *node, unsigned met, lanes near, stop *stops,
-                            int count) {
+static inline int add_stops(const wf_tree_node *node, unsigned met, const double *near,
+                            stop *stops, int count) {
     int first = count;
     for (; met; met &= met - 1) {
         int k = __builtin_ctz(met), at = count++;
@@ -88,8 +117,8 @@ static inline int add_stops(const wf_walk_node *node, unsigned met, lanes near, 
     return count;
 }
 
-static bool go(const wf_walk_tree *tree, wf_walk *w) {
-    stop stops[WF_WALK_DEPTH * WF_WALK_WIDTH];
+static bool go(const wf_tree *tree, wf_walk *w) {
+    stop stops[WF_TREE_DEPTH * WF_TREE_WIDTH];
     int count = 0;
     if (!tree->node_count) return true;
     way r = make_way(tree, w);
@@ -102,11 +131,52 @@ static bool go(const wf_walk_tree *tree, wf_walk *w) {
             if (!w->meet(w->user, w, ~s.node, s.near)) return false;
             continue;
         }
-        const wf_walk_node *node = &tree->nodes[s.node];
+        const wf_tree_node *node = &tree->nodes[s.node];
         unsigned met = meet_boxes(node, &r, w->most, &near);
-        count = add_stops(node, met, near, stops, count);
+        count = add_stops(node, met, (const double *)&near, stops, count);
     }
     return true;
 }
 
-const wf_walk_ops WF_ISA_TABLE(wf_walk_ops) = {go};
+/* ---- Shafts ---- */
+
+/* What rounding may do to the ends of a stretch. */
+#define SLACK 0x1p-40
+
+/* No ray of the shaft meets a box but between these. */
+static inline unsigned reach_boxes(const wf_tree_node *node, const wf_shaft *f) {
+    lanes from = of(0), to = of(f->most);
+    for (int k = 0; k < 3; k++) {
+        lanes low = *(const lanes *)node->plane[k], high = *(const lanes *)node->plane[3 + k];
+        lanes a = (low - f->o.high[k]) * f->rise[k], b = (high - f->o.low[k]) * f->fall[k];
+        if (signbit(f->d.high[k]))
+            to = smaller(a, to);
+        else
+            from = larger(a, from);
+        if (signbit(f->d.low[k]))
+            from = larger(b, from);
+        else
+            to = smaller(b, to);
+    }
+    return not_over(from * (1 - SLACK), to * (1 + SLACK)) & node->used;
+}
+
+static int find(const wf_tree *tree, const wf_shaft *shaft, int most, int *found) {
+    int32_t stops[WF_TREE_DEPTH * WF_TREE_WIDTH];
+    int count = 0, n = 0;
+    if (!tree->node_count) return 0;
+    stops[count++] = 0;
+    while (count > 0 && n <= most) {
+        const wf_tree_node *node = &tree->nodes[stops[--count]];
+        for (unsigned met = reach_boxes(node, shaft); met; met &= met - 1) {
+            int32_t child = node->child[__builtin_ctz(met)];
+            if (child < 0)
+                found[n++] = tree->items[~child];
+            else
+                stops[count++] = child;
+        }
+    }
+    return n;
+}
+
+const wf_walk_ops WF_ISA_TABLE(wf_walk_ops) = {go, find};

@@ -164,12 +164,12 @@ wf_bounds wf_bounds_move(const wf_ready_op *r, double from, double to, wf_bounds
     return move[r->op->kind](r, from, to, b);
 }
 
-wf_bounds wf_bounds_solid(const wf_scene *scene, const wf_ready_op *ops, int index,
+wf_bounds wf_bounds_solid(const wf_scene *scene, const wf_ready_op *ops, int index, int within,
                           double from_s, double to_s) {
     const wf_solid *solid = &scene->solids[index];
     wf_bounds b = wf_solid_type_of(solid->kind)->bounds(solid, scene->planes);
     b = place(&solid->place, b);
-    for (int op = solid->op; op >= 0; op = scene->ops[op].outer)
+    for (int op = solid->op; op >= 0 && op != within; op = scene->ops[op].outer)
         b = wf_bounds_move(&ops[op], from_s, to_s, b);
     return b;
 }

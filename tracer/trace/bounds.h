@@ -1,7 +1,7 @@
 #ifndef WF_TRACER_TRACE_BOUNDS_H
 #define WF_TRACER_TRACE_BOUNDS_H
 
-#include "tracer/rays/solid.h"
+#include "tracer/rays/walk.h"
 #include "tracer/scene/motion.h"
 
 /* Boxes that hold solids over a window of time, and shafts that hold packets of rays. Every
@@ -18,17 +18,10 @@ wf_bounds wf_bounds_of_point(wf_vec p);
 /* The box of what an operator makes of a box at any time from..to seconds after its base. */
 wf_bounds wf_bounds_move(const wf_ready_op *op, double from_s, double to_s, wf_bounds b);
 
-/* The box in the world of what is in a solid at any time of from..to; ops: ready operators by
- * the scene's indices. */
-wf_bounds wf_bounds_solid(const wf_scene *scene, const wf_ready_op *ops, int solid,
+/* The box of what is in a solid at any time of from..to, in the space within an operator; -1:
+ * in the world. ops: ready operators by the scene's indices. */
+wf_bounds wf_bounds_solid(const wf_scene *scene, const wf_ready_op *ops, int solid, int within,
                           double from_s, double to_s);
-
-/* All points o + s d, 0 <= s <= most, with o and d each in a box. */
-typedef struct wf_shaft {
-    wf_bounds o, d;
-    double rise[3], fall[3]; /* 1 / d.high, 1 / d.low */
-    double most;
-} wf_shaft;
 
 wf_shaft wf_shaft_new(wf_bounds o, wf_bounds d, double most);
 wf_shaft wf_shaft_of_rays(const wf_rays *rays, double most);

@@ -72,30 +72,32 @@ static void leave(const wf_tracer *t, const wf_carried *c, int count, wf_points 
 /* ---- The spaces of a packet ---- */
 
 void wf_carry_begin(wf_trace_scratch *s) {
-    s->carried_count = 0;
+    s->spaces->carried_count = 0;
 }
 
 static wf_carried *find_carried(const wf_trace_scratch *s, int op) {
-    int at = s->carried_of[op];
-    return at < s->carried_count && s->carried[at]->op == op ? s->carried[at] : NULL;
+    int at = s->spaces->carried_of[op];
+    return at < s->spaces->carried_count && s->spaces->carried[at]->op == op
+               ? s->spaces->carried[at]
+               : NULL;
 }
 
 static wf_carried *new_carried(wf_trace_scratch *s, int op) {
-    if (s->carried_count == s->carried_capacity) {
-        int capacity = 2 * s->carried_capacity + 8;
-        wf_carried **grown = realloc(s->carried, (size_t)capacity * sizeof *grown);
+    if (s->spaces->carried_count == s->spaces->carried_capacity) {
+        int capacity = 2 * s->spaces->carried_capacity + 8;
+        wf_carried **grown = realloc(s->spaces->carried, (size_t)capacity * sizeof *grown);
         if (!grown) return NULL;
-        memset(grown + s->carried_capacity, 0,
-               (size_t)(capacity - s->carried_capacity) * sizeof *grown);
-        s->carried = grown;
-        s->carried_capacity = capacity;
+        memset(grown + s->spaces->carried_capacity, 0,
+               (size_t)(capacity - s->spaces->carried_capacity) * sizeof *grown);
+        s->spaces->carried = grown;
+        s->spaces->carried_capacity = capacity;
     }
-    wf_carried **at = &s->carried[s->carried_count];
+    wf_carried **at = &s->spaces->carried[s->spaces->carried_count];
     if (!*at) *at = aligned_alloc(64, (sizeof **at + 63) / 64 * 64);
     if (!*at) return NULL;
     (*at)->op = op;
     (*at)->shaft.most = 0;
-    s->carried_of[op] = s->carried_count++;
+    s->spaces->carried_of[op] = s->spaces->carried_count++;
     return *at;
 }
 

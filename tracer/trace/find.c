@@ -47,8 +47,8 @@ static int find_parts(const finding *f, int most, int *found) {
     for (int n = 0; !t->skip && n < t->part_count; n++) found[n] = n;
     if (!t->skip) return t->part_count;
     memcpy(found, t->endless, (size_t)count * sizeof *found);
-    count += wf_tree_meet(&t->still_tree, t->part_bounds, f->shaft, most, found + count);
-    return count + wf_tree_meet(&t->moving_tree, t->part_bounds, f->shaft, most, found + count);
+    count += t->walk->find(wf_groves_still(t->groves), f->shaft, most, found + count);
+    return count + t->walk->find(&t->moving_tree, f->shaft, most, found + count);
 }
 
 static bool cull_parts(finding *f, const int *parts, int count, wf_culls *out) {

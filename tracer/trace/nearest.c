@@ -18,16 +18,18 @@ typedef struct search {
     const double *rounding;
 } search;
 
-static bool make_runs(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
-                      int solid, wf_runs *runs) {
-    const wf_solid *form = &t->scene->solids[solid];
-    const wf_rays *rays = wf_carry_rays(t, s, packet, form->op);
+static int most_runs(const search *q, int solid) {
+    return wf_solid_type_of(q->t->scene->solids[solid].kind)->most_runs;
+}
+
+/* As many as the solid has at most. */
+static bool make_runs(const search *q, int solid, wf_runs *runs) {
+    const wf_solid *form = &q->t->scene->solids[solid];
+    const wf_rays *rays = wf_carry_rays(q->t, q->s, q->packet, form->op);
     wf_rays local;
     if (!rays) return false;
-    t->packet->place(&form->inverse, rays, &local);
-    if (wf_solid_type_of(form->kind)->most_runs < 2)
-        t->packet->no_second_run(runs, rays->count);
-    t->intersect[form->kind](form, t->scene->planes, &local, runs);
+    q->t->packet->place(&form->inverse, rays, &local);
+    q->t->intersect[form->kind](form, q->t->scene->planes, &local, runs);
     return true;
 }
 
@@ -43,16 +45,13 @@ static bool reserve_runs(wf_trace_scratch *s, size_t need) {
 
 static bool make_part_runs(const search *q, const wf_culls *culls, const wf_culled *part) {
     if (!reserve_runs(q->s, (size_t)part->solid_count)) return false;
-    for (int k = 0; k < part->solid_count; k++)
-        if (!make_runs(q->t, q->s, q->packet, culls->solid[part->solid + (size_t)k],
-                       &q->s->runs[k]))
-            return false;
+    for (int k = 0; k < part->solid_count; k++) {
+        int solid = culls->solid[part->solid + (size_t)k];
+        if (!make_runs(q, solid, &q->s->runs[k])) return false;
+        if (most_runs(q, solid) < 2)
+            q->t->packet->no_second_run(&q->s->runs[k], q->packet->rays.count);
+    }
     return true;
-}
-
-wf_runs *wf_nearest_runs(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
-                         int solid) {
-    return reserve_runs(s, 1) && make_runs(t, s, packet, solid, s->runs) ? s->runs : NULL;
 }
 
 static wf_csg program_of(const search *q, const wf_culls *culls, const wf_culled *part) {
@@ -60,13 +59,18 @@ static wf_csg program_of(const search *q, const wf_culls *culls, const wf_culled
                     culls->solid + part->solid, part->solid_count, q->packet->rays.count};
 }
 
+static bool try_solid(search *q, int solid) {
+    if (!reserve_runs(q->s, 1) || !make_runs(q, solid, q->s->runs)) return false;
+    q->t->packet->nearer(q->s->runs, most_runs(q, solid), q->rounding, solid,
+                         q->packet->rays.count, q->hits);
+    return true;
+}
+
 static bool try_part(search *q, const wf_culled *part) {
+    if (part->solid_count == 1) return try_solid(q, q->culls->solid[part->solid]);
     if (!make_part_runs(q, q->culls, part)) return false;
     wf_csg csg = program_of(q, q->culls, part);
-    if (part->solid_count == 1)
-        q->t->packet->nearer(q->s->runs, q->rounding, csg.solid[0], csg.count, q->hits);
-    else
-        q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
+    q->t->csg->nearest(&csg, q->rounding, q->s->in, q->hits);
     return true;
 }
 

@@ -15,11 +15,6 @@ bool wf_nearest_part(const wf_tracer *tracer, wf_trace_scratch *scratch,
                      const wf_packet *packet, const wf_culls *culls, const double *rounding,
                      bool *inside, wf_hits *hits);
 
-/* The runs of a packet's rays in one solid, which are the scratch's until more are made. NULL:
- * no memory. */
-wf_runs *wf_nearest_runs(const wf_tracer *tracer, wf_trace_scratch *scratch,
-                         const wf_packet *packet, int solid);
-
 /* Whether one of the culled parts holds where each ray starts, as bytes 0 and 1. */
 bool wf_holds(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
               const wf_culls *culls, size_t part, uint8_t *in);

@@ -95,3 +95,41 @@ void wf_parts_judge(wf_tracer *t) {
     }
     t->all_still = !moves;
 }
+
+/* ---- Boxes ---- */
+
+static wf_bounds solid_bounds(const wf_tracer *t, int solid, int within) {
+    const wf_window_of_time *w = &t->window;
+    int op = t->scene->solids[solid].op;
+    bool own = op >= 0 && t->scene->ops[op].own_width;
+    double width = (own ? t->scene->ops[op].width_fields : w->width_fields);
+    width *= t->view.field_period_s;
+    return wf_bounds_solid(t->scene, t->ops, solid, within, -w->anchor * width,
+                           (1 - w->anchor) * width + w->late_s);
+}
+
+static wf_bounds combine(wf_step_kind kind, const wf_bounds *operand, int count) {
+    wf_bounds b = operand[0];
+    for (int k = 1; k < count && kind != WF_STEP_DIFFERENCE; k++)
+        b = kind == WF_STEP_UNION ? wf_bounds_unite(b, operand[k])
+                                  : wf_bounds_intersect(b, operand[k]);
+    return b;
+}
+
+void wf_parts_bound(wf_tracer *t, int index, int within, wf_bounds *solids, wf_bounds *out) {
+    const wf_part *part = &t->parts[index];
+    int top = 0;
+    for (int k = 0; k < part->step_count; k++) {
+        const wf_step *step = &t->scene->steps[part->first_step + k];
+        if (step->kind == WF_STEP_SOLID) {
+            t->stack[top] = solid_bounds(t, step->count, within);
+            if (solids) solids[step->count] = t->stack[top];
+            top++;
+            continue;
+        }
+        top -= step->count;
+        t->stack[top] = combine(step->kind, &t->stack[top], step->count);
+        top++;
+    }
+    *out = t->stack[0];
+}

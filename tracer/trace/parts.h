@@ -11,4 +11,8 @@ bool wf_parts_split(wf_tracer *tracer);
  * tracer's arrays have been made. */
 void wf_parts_judge(wf_tracer *tracer);
 
+/* The box of a part over the window, in the space within an operator; -1: in the world. solids:
+ * [solid], where those of its solids are noted too, or NULL. */
+void wf_parts_bound(wf_tracer *tracer, int part, int within, wf_bounds *solids, wf_bounds *out);
+
 #endif

@@ -16,7 +16,7 @@ typedef enum wf_seek_what {
 bool wf_seek(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
              wf_seek_what what, wf_hits *hits);
 
-/* Whether rays of this kind may be sought one by one. */
-bool wf_can_seek(const wf_tracer *tracer, wf_seek_what what);
+/* How many parts a packet may meet before each of its rays goes its own way for less. */
+int wf_seek_above(const wf_tracer *tracer, wf_seek_what what);
 
 #endif

@@ -9,6 +9,8 @@
 #include "tracer/trace/find.h"
 #include "tracer/trace/glass.h"
 #include "tracer/trace/nearest.h"
+#include "tracer/trace/paint.h"
+#include "tracer/trace/seek.h"
 #include "tracer/trace/shadow.h"
 
 /* Secondary rays start this far off the surface, by the size of the numbers they start from:
@@ -41,88 +43,8 @@ static wf_vec direction(const wf_rays *r, int i) {
 
 /* ---- Surfaces ---- */
 
-static void choose(const shading *h, int64_t solid, const double *from, double *to) {
-    h->t->light->choose(h->l->hits.solid, solid, from, h->count, to);
-}
-
-static void paint_normals(const shading *h, const wf_solid *solid, int64_t index,
-                          const wf_rays *rays) {
-    wf_rays local;
-    wf_points p, n;
-    h->t->packet->place(&solid->inverse, rays, &local);
-    h->t->packet->reach(&local, h->l->hits.s, &p);
-    h->t->normals[solid->kind](solid, h->t->scene->planes, &p, h->count, &n);
-    h->t->packet->place_normals(&solid->inverse, h->count, &n);
-    wf_carry_normals(h->t, h->s, solid->op, h->count, &n);
-    choose(h, index, n.x, h->l->normal.x);
-    choose(h, index, n.y, h->l->normal.y);
-    choose(h, index, n.z, h->l->normal.z);
-}
-
-static void find_colors(const shading *h, const wf_solid *solid, const wf_material *m,
-                        const wf_rays *rays, double rgb[3][WF_PACKET]) {
-    wf_rays written;
-    wf_points p;
-    if (m->texture.kind == WF_TEXTURE_NONE) {
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < WF_PACKET; i++) rgb[c][i] = (double)m->color[c];
-        return;
-    }
-    if (solid->written >= 0) {
-        h->t->packet->place(&h->t->ops[solid->written].inverse, rays, &written);
-        rays = &written;
-    }
-    h->t->packet->reach(rays, h->l->hits.s, &p);
-    h->t->textures[m->texture.kind](h->t->scene, &m->texture, &p, h->count,
-                                    (double *const[3]){rgb[0], rgb[1], rgb[2]});
-}
-
-static void paint_material(shading *h, const wf_material *m, int64_t index) {
-    wf_surfaces *f = h->surface;
-    const struct {
-        double value, *to;
-    } property[] = {{m->unlit ? 0 : 1, f->lit},
-                    {(double)m->ambient, f->ambient},
-                    {(double)m->diffuse, f->diffuse},
-                    {(double)m->specular, f->specular},
-                    {(double)m->shininess, f->shininess}};
-    for (size_t k = 0; k < sizeof property / sizeof *property; k++) {
-        double all[WF_PACKET];
-        for (int i = 0; i < WF_PACKET; i++) all[i] = property[k].value;
-        choose(h, index, all, property[k].to);
-    }
-    for (int i = 0; i < WF_PACKET; i++)
-        if (h->l->hits.solid[i] == index) f->material[i] = m;
-    h->shines |= m->specular > 0;
-}
-
-static bool paint_solid(shading *h, int64_t index) {
-    const wf_solid *solid = &h->t->scene->solids[index];
-    const wf_material *m = &h->t->scene->materials[solid->material];
-    const wf_rays *rays = wf_carry_rays(h->t, h->s, &h->l->packet, solid->op);
-    double rgb[3][WF_PACKET];
-    if (!rays) return false;
-    paint_normals(h, solid, index, rays);
-    find_colors(h, solid, m, rays, rgb);
-    for (int c = 0; c < 3; c++) choose(h, index, rgb[c], h->surface->color[c]);
-    paint_material(h, m, index);
-    return true;
-}
-
-/* Paints one after another the solids that are seen, each for all lanes at once. */
 static bool paint(shading *h) {
-    const int64_t *solid = h->l->hits.solid;
-    int64_t done[WF_PACKET];
-    int done_count = 0;
-    memset(h->surface, 0, sizeof *h->surface);
-    for (int i = 0; i < h->count; i++) {
-        int k = 0;
-        if (solid[i] < 0) continue;
-        while (k < done_count && done[k] != solid[i]) k++;
-        if (k < done_count) continue;
-        done[done_count++] = solid[i];
-        if (!paint_solid(h, solid[i])) return false;
-    }
+    if (!wf_paint(h->t, h->s, h->l, h->surface, &h->shines)) return false;
     h->t->packet->reach(&h->l->packet.rays, h->l->hits.s, &h->l->point);
     h->t->light->face(&h->l->packet.rays, &h->l->normal);
     h->t->light->off_surface(&h->l->packet.rays, h->l->hits.s, OFF_SURFACE, h->off);
@@ -359,11 +281,7 @@ static bool look_on(const shading *h, bool through) {
     }
     if (!lanes) return true;
     pad(&next->packet);
-    wf_shaft shaft = wf_shaft_of_rays(&next->packet.rays, HUGE_VAL);
-    wf_carry_begin(h->s);
-    if (!wf_find(h->t, h->s, &next->packet, &shaft, &next->culls) ||
-        !wf_look_along(h->t, h->s, h->level + 1, &next->culls))
-        return false;
+    if (!wf_look_about(h->t, h->s, h->level + 1)) return false;
     mix(h, lane, lanes, through);
     return true;
 }
@@ -387,5 +305,17 @@ bool wf_look_along(const wf_tracer *t, wf_trace_scratch *s, int level, const wf_
     wf_trace_level *l = &s->level[level];
     wf_hits_clear(&l->hits);
     s->counts.rays += l->packet.rays.count;
-    return wf_nearest(t, s, &l->packet, culls, true, &l->hits) && shade(t, s, level);
+    bool good = culls ? wf_nearest(t, s, &l->packet, culls, true, &l->hits)
+                      : wf_seek(t, s, &l->packet, WF_SEEK_NEAREST, &l->hits);
+    return good && shade(t, s, level);
+}
+
+bool wf_look_about(const wf_tracer *t, wf_trace_scratch *s, int level) {
+    wf_trace_level *l = &s->level[level];
+    wf_shaft shaft = wf_shaft_of_rays(&l->packet.rays, HUGE_VAL);
+    bool few;
+    wf_carry_begin(s);
+    return wf_find_few(t, s, &l->packet, &shaft, wf_seek_above(t, WF_SEEK_NEAREST), &few,
+                       &l->culls) &&
+           wf_look_along(t, s, level, few ? &l->culls : NULL);
 }

@@ -9,9 +9,12 @@ bool wf_surfaces_of(const wf_tracer *tracer, wf_trace_scratch *scratch, wf_trace
                     wf_surfaces *surfaces, double *off);
 
 /* Finds what the rays of a level's packet see among culled parts, and its light: into the
- * level's rgb. The packet has begun to be carried; mirrors and glass look on at the levels
- * after it. False: no memory. */
+ * level's rgb. culls NULL: among all, each ray on its own way. The packet has begun to be
+ * carried; mirrors and glass look on at the levels after it. False: no memory. */
 bool wf_look_along(const wf_tracer *tracer, wf_trace_scratch *scratch, int level,
                    const wf_culls *culls);
+
+/* The same among all that there is. */
+bool wf_look_about(const wf_tracer *tracer, wf_trace_scratch *scratch, int level);
 
 #endif

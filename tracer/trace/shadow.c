@@ -6,9 +6,6 @@
 #include "tracer/trace/nearest.h"
 #include "tracer/trace/seek.h"
 
-/* Where a packet may meet more parts than these, each of its rays goes its own way. */
-#define FEW_PARTS 48
-
 bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet, double far,
                uint8_t *dark) {
     wf_hits hits;
@@ -17,7 +14,8 @@ bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
     for (int i = 0; i < WF_PACKET; i++) hits.s[i] = far;
     wf_shaft shaft = wf_shaft_of_rays(&packet->rays, far);
     wf_carry_begin(s);
-    if (!wf_find_few(t, s, packet, &shaft, FEW_PARTS, &few, &s->shadow)) return false;
+    if (!wf_find_few(t, s, packet, &shaft, wf_seek_above(t, WF_SEEK_ANY), &few, &s->shadow))
+        return false;
     bool good = few ? wf_nearest(t, s, packet, &s->shadow, false, &hits)
                     : wf_seek(t, s, packet, WF_SEEK_ANY, &hits);
     for (int i = 0; i < packet->rays.count; i++) dark[i] = hits.solid[i] >= 0;

@@ -84,7 +84,7 @@ static bool crossed(const wf_tracer *t, wf_trace_scratch *s, const wf_light *lig
         most = HUGE_VAL;
     }
     wf_shaft shaft = wf_shaft_new(*box, d, most);
-    return wf_tree_meet(&t->moving_tree, t->part_bounds, &shaft, 0, s->found) > 0;
+    return t->walk->find(&t->moving_tree, &shaft, 0, s->found) > 0;
 }
 
 static bool light_still(const wf_tracer *t, wf_trace_scratch *s, const wf_bounds *box) {
@@ -123,7 +123,7 @@ bool wf_trace_still(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
     if (t->all_still) return true;
     if (wf_op_moves(t->scene, t->scene->camera.op) || endless_moves(t)) return false;
     wf_shaft shaft = wf_camera_shaft(t, x, y);
-    if (wf_tree_meet(&t->moving_tree, t->part_bounds, &shaft, 0, s->found) > 0) return false;
+    if (t->walk->find(&t->moving_tree, &shaft, 0, s->found) > 0) return false;
     wf_packet corner;
     corner.rays.count = 4;
     corner.late_s = 0;
@@ -136,7 +136,7 @@ bool wf_trace_still(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
     wf_bounds lit = wf_bounds_none();
     for (int n = 0; n < t->endless_count; n++)
         if (!part_still(t, t->endless[n], &corner.rays, &shaft, &lit)) return false;
-    int count = wf_tree_meet(&t->still_tree, t->part_bounds, &shaft, t->part_count, s->found);
+    int count = t->walk->find(wf_groves_still(t->groves), &shaft, t->part_count, s->found);
     for (int n = 0; n < count; n++)
         if (!part_still(t, s->found[n], &corner.rays, &shaft, &lit)) return false;
     return wf_bounds_empty(&lit) || light_still(t, s, &lit);

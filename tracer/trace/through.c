@@ -34,9 +34,6 @@ typedef struct passage {
     _Alignas(64) double off[WF_PACKET];
 } passage;
 
-/* Where a packet may meet more parts than these, each of its rays goes its own way. */
-#define FEW_PARTS 48
-
 static bool meet(const passage *p) {
     wf_trace_level *l = p->l;
     int count = l->packet.rays.count;
@@ -48,7 +45,7 @@ static bool meet(const passage *p) {
     wf_shaft shaft = wf_shaft_of_rays(&l->packet.rays, most);
     p->s->counts.rays += count;
     wf_carry_begin(p->s);
-    int parts = wf_can_seek(p->t, WF_SEEK_NEAREST) ? FEW_PARTS : p->t->part_count;
+    int parts = wf_seek_above(p->t, WF_SEEK_NEAREST);
     if (!wf_find_few(p->t, p->s, &l->packet, &shaft, parts, &few, &l->culls)) return false;
     return few ? wf_nearest(p->t, p->s, &l->packet, &l->culls, true, &l->hits)
                : wf_seek(p->t, p->s, &l->packet, WF_SEEK_NEAREST, &l->hits);

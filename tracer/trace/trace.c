@@ -6,6 +6,7 @@
 #include "tracer/trace/camera.h"
 #include "tracer/trace/carry.h"
 #include "tracer/trace/find.h"
+#include "tracer/trace/seek.h"
 #include "tracer/trace/shade.h"
 
 /* ---- Scratch ---- */
@@ -16,11 +17,15 @@ static bool make_scratch(const wf_tracer *t, wf_trace_scratch *s) {
     s->found = malloc(((size_t)t->part_count + 1) * sizeof *s->found);
     s->stack = malloc(stack * sizeof *s->stack);
     s->in = aligned_alloc(64, stack * sizeof *s->in);
-    s->carried_of = calloc((size_t)t->scene->op_count + 1, sizeof *s->carried_of);
+    s->spaces = &s->of_packet;
+    size_t ops = (size_t)t->scene->op_count + 1;
+    s->of_packet.carried_of = calloc(ops, sizeof *s->of_packet.carried_of);
+    s->of_ray.carried_of = calloc(ops, sizeof *s->of_ray.carried_of);
     size_t bytes = ((size_t)s->levels * sizeof *s->level + 63) / 64 * 64;
     s->level = aligned_alloc(64, bytes);
     if (s->level) memset(s->level, 0, bytes);
-    return s->found && s->stack && s->in && s->carried_of && s->level;
+    return s->found && s->stack && s->in && s->of_packet.carried_of && s->of_ray.carried_of &&
+           s->level;
 }
 
 wf_trace_scratch *wf_trace_scratch_new(const wf_tracer *t) {
@@ -33,14 +38,18 @@ wf_trace_scratch *wf_trace_scratch_new(const wf_tracer *t) {
     return NULL;
 }
 
+static void free_spaces(wf_spaces *s) {
+    for (int n = 0; n < s->carried_capacity; n++) free(s->carried[n]);
+    free(s->carried);
+    free(s->carried_of);
+}
+
 void wf_trace_scratch_free(wf_trace_scratch *s) {
     if (!s) return;
     for (int n = 0; s->level && n < s->levels; n++) wf_culls_free(&s->level[n].culls);
-    for (int n = 0; n < s->carried_count || (n < s->carried_capacity && s->carried[n]); n++)
-        free(s->carried[n]);
+    free_spaces(&s->of_packet);
+    free_spaces(&s->of_ray);
     wf_culls_free(&s->tile);
-    free(s->carried);
-    free(s->carried_of);
     free(s->found);
     free(s->stack);
     free(s->in);
@@ -53,6 +62,7 @@ void wf_trace_scratch_free(wf_trace_scratch *s) {
     wf_culls_free(&s->around);
     wf_culls_free(&s->shadow);
     free(s->joined_in);
+    free(s->waiting);
     free(s);
 }
 
@@ -62,11 +72,16 @@ wf_trace_counts wf_trace_counted(const wf_trace_scratch *s) {
 
 /* ---- Tracing ---- */
 
+/* Of tiles that may see more parts than these no list is made: each packet looks for its own.
+ */
+#define TILE_PARTS 256
+
 bool wf_trace_prepare(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
                       const double y[2], bool *empty) {
     wf_shaft shaft = wf_camera_shaft(t, x, y);
-    if (!wf_find(t, s, NULL, &shaft, &s->tile)) return false;
-    *empty = s->tile.part_count == 0;
+    int most = TILE_PARTS > wf_seek_above(t, WF_SEEK_NEAREST) ? TILE_PARTS : t->part_count;
+    if (!wf_find_few(t, s, NULL, &shaft, most, &s->tile_few, &s->tile)) return false;
+    *empty = s->tile_few && s->tile.part_count == 0;
     s->counts.tiles++;
     s->counts.tiles_skipped += *empty;
     return true;
@@ -75,7 +90,9 @@ bool wf_trace_prepare(const wf_tracer *t, wf_trace_scratch *s, const double x[2]
 bool wf_trace_nothing(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
                       const double y[2]) {
     wf_shaft shaft = wf_camera_shaft(t, x, y);
-    return wf_find(t, s, NULL, &shaft, &s->tile) && s->tile.part_count == 0;
+    bool few;
+    return wf_find_few(t, s, NULL, &shaft, TILE_PARTS, &few, &s->tile) && few &&
+           s->tile.part_count == 0;
 }
 
 void wf_trace_skip(wf_trace_scratch *s) {
@@ -101,6 +118,7 @@ static void fill_packet(const wf_tracer *t, const wf_trace_samples *samples, siz
 /* From the tile's list, what this packet can meet. */
 static bool look_from_tile(const wf_tracer *t, wf_trace_scratch *s) {
     wf_trace_level *l = &s->level[0];
+    if (!s->tile_few) return wf_look_about(t, s, 0);
     wf_carry_begin(s);
     if (!t->skip) return wf_look_along(t, s, 0, &s->tile);
     wf_shaft shaft = wf_shaft_of_rays(&l->packet.rays, HUGE_VAL);

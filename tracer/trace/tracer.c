@@ -3,7 +3,7 @@
 
 #include "tracer/trace/glass.h"
 #include "tracer/trace/parts.h"
-#include "tracer/trace/wide.h"
+#include "tracer/trace/tree.h"
 
 /* ---- Life ---- */
 
@@ -22,12 +22,11 @@ static bool make_arrays(wf_tracer *t) {
     t->stack = malloc(stack * sizeof *t->stack);
     t->lit = calloc(parts, sizeof *t->lit);
     t->clear = calloc(parts, sizeof *t->clear);
-    t->still = malloc(parts * sizeof *t->still);
     t->moving = malloc(parts * sizeof *t->moving);
     t->movers = malloc(parts * sizeof *t->movers);
     t->endless = malloc(parts * sizeof *t->endless);
     return t->ops && t->solid_bounds && t->part_bounds && t->stack && t->lit && t->clear &&
-           t->still && t->moving && t->movers && t->endless;
+           t->moving && t->movers && t->endless;
 }
 
 wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
@@ -55,10 +54,8 @@ wf_tracer *wf_tracer_new(const wf_scene *scene, const wf_view *view) {
 
 void wf_tracer_free(wf_tracer *t) {
     if (!t) return;
-    wf_tree_free(&t->still_tree);
     wf_tree_free(&t->moving_tree);
-    wf_wide_free(&t->still_wide);
-    wf_wide_free(&t->moving_wide);
+    wf_groves_free(t->groves);
     free(t->parts);
     free(t->sibling);
     wf_glass_free(t);
@@ -68,7 +65,6 @@ void wf_tracer_free(wf_tracer *t) {
     free(t->solid_bounds);
     free(t->part_bounds);
     free(t->stack);
-    free(t->still);
     free(t->moving);
     free(t->movers);
     free(t->endless);
@@ -81,45 +77,10 @@ bool wf_tracer_own_widths(const wf_tracer *t) {
 
 /* ---- Looking at a window of time ---- */
 
-static wf_bounds solid_bounds(const wf_tracer *t, int solid) {
-    const wf_window_of_time *w = &t->window;
-    int op = t->scene->solids[solid].op;
-    bool own = op >= 0 && t->scene->ops[op].own_width;
-    double width = (own ? t->scene->ops[op].width_fields : w->width_fields);
-    width *= t->view.field_period_s;
-    return wf_bounds_solid(t->scene, t->ops, solid, -w->anchor * width,
-                           (1 - w->anchor) * width + w->late_s);
-}
-
-static wf_bounds combine(wf_step_kind kind, const wf_bounds *operand, int count) {
-    wf_bounds b = operand[0];
-    for (int k = 1; k < count && kind != WF_STEP_DIFFERENCE; k++)
-        b = kind == WF_STEP_UNION ? wf_bounds_unite(b, operand[k])
-                                  : wf_bounds_intersect(b, operand[k]);
-    return b;
-}
-
-static void bound_part(wf_tracer *t, int index) {
-    const wf_part *part = &t->parts[index];
-    int top = 0;
-    for (int k = 0; k < part->step_count; k++) {
-        const wf_step *step = &t->scene->steps[part->first_step + k];
-        if (step->kind == WF_STEP_SOLID) {
-            t->solid_bounds[step->count] = solid_bounds(t, step->count);
-            t->stack[top++] = t->solid_bounds[step->count];
-            continue;
-        }
-        top -= step->count;
-        t->stack[top] = combine(step->kind, &t->stack[top], step->count);
-        top++;
-    }
-    t->part_bounds[index] = t->stack[0];
-}
-
 /* Parts that are nowhere in the window are in no list: an intersection of moving solids comes
  * and goes. */
 static void sort_part(wf_tracer *t, int n) {
-    bound_part(t, n);
+    wf_parts_bound(t, n, -1, t->solid_bounds, &t->part_bounds[n]);
     if (wf_bounds_empty(&t->part_bounds[n])) return;
     bool finite = wf_bounds_finite(&t->part_bounds[n]);
     t->endless_sibling |= !finite && t->sibling[t->parts[n].object];
@@ -127,12 +88,10 @@ static void sort_part(wf_tracer *t, int n) {
         t->endless[t->endless_count++] = n;
     else if (t->parts[n].moves)
         t->moving[t->moving_count++] = n;
-    else
-        t->still[t->still_count++] = n;
 }
 
 /* What stands still, once and for all. */
-static bool sort_still_parts(wf_tracer *t) {
+static void sort_still_parts(wf_tracer *t) {
     for (int n = 0; n < t->part_count; n++) {
         if (t->parts[n].moves)
             t->movers[t->mover_count++] = n;
@@ -140,8 +99,6 @@ static bool sort_still_parts(wf_tracer *t) {
             sort_part(t, n);
     }
     t->endless_still = t->endless_count;
-    return wf_tree_new(t->part_bounds, t->still, t->still_count, &t->still_tree) &&
-           wf_wide_new(t->part_bounds, t->still, t->still_count, &t->still_wide);
 }
 
 bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
@@ -149,13 +106,12 @@ bool wf_tracer_look(wf_tracer *t, const wf_window_of_time *window, bool skip) {
     t->skip = skip;
     for (int n = 0; n < t->scene->op_count; n++)
         t->ops[n] = wf_op_ready(t->scene, n, window->base_s);
-    if (!t->looked && !sort_still_parts(t)) return false;
+    if (!t->looked) sort_still_parts(t);
     t->looked = true;
     t->moving_count = 0;
     t->endless_count = t->endless_still;
     for (int n = 0; n < t->mover_count; n++) sort_part(t, t->movers[n]);
     wf_tree_free(&t->moving_tree);
-    wf_wide_free(&t->moving_wide);
     return wf_tree_new(t->part_bounds, t->moving, t->moving_count, &t->moving_tree) &&
-           wf_wide_new(t->part_bounds, t->moving, t->moving_count, &t->moving_wide);
+           wf_groves_look(t);
 }

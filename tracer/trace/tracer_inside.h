@@ -4,8 +4,8 @@
 #include "tracer/rays/light.h"
 #include "tracer/rays/packet.h"
 #include "tracer/rays/texture.h"
-#include "tracer/rays/walk.h"
 #include "tracer/trace/cull.h"
+#include "tracer/trace/grove.h"
 #include "tracer/trace/tracer.h"
 #include "tracer/trace/tree.h"
 
@@ -45,12 +45,12 @@ struct wf_tracer {
     wf_ready_op *ops;                      /* [op] */
     wf_bounds *solid_bounds, *part_bounds; /* in the world, over the window */
     wf_bounds *stack;                      /* [most_stack] */
-    int *still, *moving, *endless;         /* parts: bounded that stand, that move; unbounded */
-    int still_count, moving_count, endless_count;
+    int *moving, *endless;                 /* parts: bounded that move; unbounded */
+    int moving_count, endless_count;
     int endless_still;        /* of the endless ones, which come first */
     int *movers, mover_count; /* all parts that move, seen in the window or not */
-    wf_tree still_tree, moving_tree;
-    wf_walk_tree still_wide, moving_wide; /* the same parts, for single rays */
+    wf_tree moving_tree;      /* of parts */
+    wf_groves *groves;        /* what stands still, and what moves for single rays */
 };
 
 /* One packet in one operator's space. */
@@ -61,6 +61,20 @@ typedef struct wf_carried {
     wf_shaft shaft; /* of the rays */
     int op;
 } wf_carried;
+
+/* Spaces that a packet has been carried into. */
+typedef struct wf_spaces {
+    wf_carried **carried;
+    int *carried_of; /* [op]: index, if its entry says the same op */
+    int carried_count, carried_capacity;
+} wf_spaces;
+
+/* A ray of a packet that may meet a part. */
+typedef struct wf_waiting {
+    const wf_leaf *leaf;
+    double near;
+    int ray;
+} wf_waiting;
 
 /* A packet on its way: its rays in the world, and when they look. */
 typedef struct wf_packet {
@@ -84,21 +98,21 @@ struct wf_trace_scratch {
     wf_cull_operand *stack; /* [most_stack] */
     wf_csg_entry *in;       /* [most_stack + 1] */
     wf_culls tile;
+    bool tile_few;         /* the tile's list is one */
     wf_trace_level *level; /* [depth_limit + 1] */
     int levels;
     bool failed; /* memory ran out while solids were looked at */
 
-    /* Spaces that the packet in hand has been carried into. */
-    wf_carried **carried;
-    int *carried_of, carried_count,
-        carried_capacity; /* [op]: index, if its entry says the same op */
+    wf_spaces of_packet, of_ray, *spaces; /* of the packet in hand, of one ray; those in use */
     wf_runs *runs;
     size_t runs_capacity;
 
-    /* One ray of a packet, what it meets, and what the parts that it meets are for it. */
-    wf_packet ray;
-    wf_hits hit;
-    wf_culls alone, around, shadow;
+    wf_packet ray;                  /* one of a packet */
+    wf_culls alone, around, shadow; /* a part for some rays, those for a packet */
+
+    /* Rays that wait for others before a part of several solids is looked at. */
+    wf_waiting *waiting;
+    size_t waiting_count, waiting_capacity;
 
     /* Some of a packet's rays. */
     wf_packet some;

@@ -1,18 +1,13 @@
-/* Trees of boxes, halved about the middle along the axis on which the boxes lie widest apart.
- */
+/* Trees of boxes. */
 #include "tracer/trace/tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAF  4
-#define DEPTH 64 /* a tree halved at each node is never deeper */
+#include "tracer/trace/bounds.h"
 
-typedef struct builder {
-    const wf_bounds *bounds;
-    wf_tree *tree;
-} builder;
+/* ---- Parts of items ---- */
 
 static double middle(const wf_bounds *bounds, int item, int axis) {
     const wf_bounds *box = &bounds[item];
@@ -40,10 +35,11 @@ static void swap(int *a, int *b) {
     *b = t;
 }
 
-/* Quickselect about the middle one. */
-void wf_tree_halve(const wf_bounds *bounds, int *items, int count) {
+/* Puts those `half` items first whose middles are smallest, along the axis on which the middles
+ * lie widest apart: quickselect about the middle one. */
+static void part_items(const wf_bounds *bounds, int *items, int count, int half) {
     int axis = widest(bounds, items, count);
-    int low = 0, high = count - 1, half = count / 2;
+    int low = 0, high = count - 1;
     while (low < high) {
         double pivot = middle(bounds, items[(low + high) / 2], axis);
         int i = low, j = high;
@@ -61,36 +57,89 @@ void wf_tree_halve(const wf_bounds *bounds, int *items, int count) {
     }
 }
 
-wf_bounds wf_tree_around(const wf_bounds *bounds, const int *items, int count) {
+/* ---- Nodes ---- */
+
+/* Items in a row. */
+typedef struct span {
+    int first, count;
+} span;
+
+typedef struct builder {
+    const wf_bounds *bounds;
+    wf_tree *tree;
+} builder;
+
+/* Nodes are full but for the root: one level more is a step more for every ray. */
+static int children_of(int count) {
+    int64_t full = 1;
+    while (full * WF_TREE_WIDTH < count) full *= WF_TREE_WIDTH;
+    return (int)((count + full - 1) / full);
+}
+
+/* Cuts a span into so many about equal ones, each by what it holds of the two halves of all. */
+static void split(const builder *b, span whole, int parts, span *spans) {
+    if (parts == 1 || whole.count == parts) {
+        for (int k = 0; k < parts; k++)
+            spans[k] = (span){whole.first + k, parts == 1 ? whole.count : 1};
+        return;
+    }
+    int left = parts / 2, half = (int)((int64_t)whole.count * left / parts);
+    part_items(b->bounds, b->tree->items + whole.first, whole.count, half);
+    split(b, (span){whole.first, half}, left, spans);
+    split(b, (span){whole.first + half, whole.count - half}, parts - left, spans + left);
+}
+
+static void put_child(wf_tree_node *node, int k, const wf_bounds *box, int child) {
+    for (int axis = 0; axis < 3; axis++) {
+        node->plane[axis][k] = box->low[axis];
+        node->plane[3 + axis][k] = box->high[axis];
+    }
+    node->child[k] = child;
+}
+
+/* Returns the box of what the node holds. */
+static wf_bounds build(builder *b, int index, span whole) {
+    wf_tree *tree = b->tree;
+    span spans[WF_TREE_WIDTH];
     wf_bounds all = wf_bounds_none();
-    for (int i = 0; i < count; i++) all = wf_bounds_unite(all, bounds[items[i]]);
+    int count = children_of(whole.count);
+    split(b, whole, count, spans);
+    tree->nodes[index] = (wf_tree_node){.used = (1u << count) - 1};
+    for (int k = 0; k < count; k++) {
+        bool one = spans[k].count == 1;
+        int child = one ? ~spans[k].first : tree->node_count++;
+        wf_bounds box =
+            one ? b->bounds[tree->items[spans[k].first]] : build(b, child, spans[k]);
+        put_child(&tree->nodes[index], k, &box, child);
+        all = wf_bounds_unite(all, box);
+    }
     return all;
 }
 
-static void build(builder *b, int node, int first, int count) {
-    wf_tree *tree = b->tree;
-    int *items = tree->items + first;
-    tree->nodes[node] = (wf_tree_node){wf_tree_around(b->bounds, items, count), first, count};
-    if (count <= LEAF) return;
-    wf_tree_halve(b->bounds, items, count);
-    int child = tree->node_count;
-    tree->node_count += 2;
-    tree->nodes[node].first = child;
-    tree->nodes[node].count = 0;
-    build(b, child, first, count / 2);
-    build(b, child + 1, first + count / 2, count - count / 2);
+static double size_of(const wf_bounds *b) {
+    double size = 0;
+    for (int k = 0; k < 3; k++) size = fmax(size, fmax(fabs(b->low[k]), fabs(b->high[k])));
+    return size;
+}
+
+/* A node below the root has two children or more, those of the last level four items. */
+static size_t most_nodes(int count) {
+    return (size_t)count / 2 + 1;
 }
 
 bool wf_tree_new(const wf_bounds *bounds, const int *items, int count, wf_tree *out) {
     *out = (wf_tree){.node_count = 1, .item_count = count};
-    out->nodes = malloc((2 * (size_t)count + 1) * sizeof *out->nodes);
+    if (!count) out->node_count = 0;
+    out->nodes = aligned_alloc(64, most_nodes(count) * sizeof *out->nodes);
     out->items = malloc(((size_t)count + 1) * sizeof *out->items);
     if (!out->nodes || !out->items) {
         wf_tree_free(out);
         return false;
     }
+    if (!count) return true;
     memcpy(out->items, items, (size_t)count * sizeof *items);
-    build(&(builder){bounds, out}, 0, 0, count);
+    wf_bounds all = build(&(builder){bounds, out}, 0, (span){0, count});
+    out->size = size_of(&all);
     return true;
 }
 
@@ -98,34 +147,4 @@ void wf_tree_free(wf_tree *tree) {
     free(tree->nodes);
     free(tree->items);
     *tree = (wf_tree){0};
-}
-
-static int meet_leaf(const wf_tree *tree, const wf_tree_node *node, const wf_bounds *bounds,
-                     const wf_shaft *shaft, int *found) {
-    wf_stretch stretch;
-    int n = 0;
-    for (int i = 0; i < node->count; i++) {
-        int item = tree->items[node->first + i];
-        if (wf_shaft_meets(shaft, &bounds[item], &stretch)) found[n++] = item;
-    }
-    return n;
-}
-
-int wf_tree_meet(const wf_tree *tree, const wf_bounds *bounds, const wf_shaft *shaft, int most,
-                 int *found) {
-    int waiting[DEPTH], top = 0, n = 0;
-    wf_stretch stretch;
-    if (!tree->item_count) return 0;
-    waiting[top++] = 0;
-    while (top > 0 && n <= most) {
-        const wf_tree_node *node = &tree->nodes[waiting[--top]];
-        if (!wf_shaft_meets(shaft, &node->bounds, &stretch)) continue;
-        if (node->count) {
-            n += meet_leaf(tree, node, bounds, shaft, found + n);
-            continue;
-        }
-        waiting[top++] = node->first + 1;
-        waiting[top++] = node->first;
-    }
-    return n;
 }

@@ -107,6 +107,15 @@ static void place(level_run *r) {
     keep_rays(r, &to);
 }
 
+static void place_one(level_run *r) {
+    wf_affine a = drawn_affine(r);
+    wf_rays from, to;
+    fill_rays(r, &from), fill_rays(r, &to);
+    int ray = (int)(level_draw(r) % (unsigned)from.count);
+    packet(r)->place_one(&a, &from, ray, &to);
+    keep_rays(r, &to);
+}
+
 static void drift_in(level_run *r) {
     const wf_op op = {.kind = WF_OP_VELOCITY, .velocity = drawn_vec(r)};
     const wf_ready_op ready = {.op = &op, .offset = drawn_vec(r)};
@@ -174,7 +183,18 @@ static void nearer(level_run *r) {
         rounding[i] = level_uniform(r, 0, 0.01);
         if (i % 3 == 0 && hits.s[i] < HUGE_VAL) runs.in[0][i] = hits.s[i];
     }
-    packet(r)->nearer(&runs, rounding, level_draw(r) % 8, drawn_count(r), &hits);
+    int most_runs = 1 + (int)(level_draw(r) % 2);
+    packet(r)->nearer(&runs, most_runs, rounding, level_draw(r) % 8, drawn_count(r), &hits);
+    keep_hits(r, &hits);
+}
+
+static void nearer_one(level_run *r) {
+    wf_runs runs;
+    wf_hits hits;
+    fill_runs(r, &runs), fill_hits(r, &hits);
+    int ray = (int)(level_draw(r) % WF_PACKET), most_runs = 1 + (int)(level_draw(r) % 2);
+    if (level_draw(r) % 3 == 0 && hits.s[ray] < HUGE_VAL) runs.in[0][0] = hits.s[ray];
+    packet(r)->nearer_one(&runs, most_runs, 1e-3, level_draw(r) % 8, ray, &hits);
     keep_hits(r, &hits);
 }
 
@@ -218,12 +238,20 @@ static void box_of_rays(level_run *r) {
 }
 
 static const level_row packets[] = {
-    {"packet.place", place, false, 0},       {"packet.drift_in", drift_in, false, 0},
-    {"packet.spin_in", spin_in, false, 0},   {"packet.find_sincos", find_sincos, false, 0},
-    {"packet.spin_out", spin_out, false, 0}, {"packet.place_normals", place_normals, false, 0},
-    {"packet.reach", reach, false, 0},       {"packet.nearer", nearer, false, 0},
-    {"packet.unit", unit, false, 0},         {"packet.rounding", rounding, false, 0},
-    {"packet.farthest", farthest, false, 0}, {"packet.no_second_run", no_second_run, false, 0},
+    {"packet.place", place, false, 0},
+    {"packet.place_one", place_one, false, 0},
+    {"packet.drift_in", drift_in, false, 0},
+    {"packet.spin_in", spin_in, false, 0},
+    {"packet.find_sincos", find_sincos, false, 0},
+    {"packet.spin_out", spin_out, false, 0},
+    {"packet.place_normals", place_normals, false, 0},
+    {"packet.reach", reach, false, 0},
+    {"packet.nearer", nearer, false, 0},
+    {"packet.nearer_one", nearer_one, false, 0},
+    {"packet.unit", unit, false, 0},
+    {"packet.rounding", rounding, false, 0},
+    {"packet.farthest", farthest, false, 0},
+    {"packet.no_second_run", no_second_run, false, 0},
     {"packet.box", box_of_rays, false, 0},
 };
 
@@ -373,27 +401,27 @@ static bool meet(void *user, wf_walk *walk, int item, double near) {
 }
 
 /* A root with nodes in half of its places, and items in the others and in theirs. */
-static void fill_tree(level_run *r, wf_walk_node *nodes) {
-    for (int n = 0, next = 1; n < 5; n++)
-        for (int k = 0; k < WF_WALK_WIDTH; k++) {
-            bool none = level_draw(r) % 8 == 0;
+static void fill_tree(level_run *r, wf_tree_node *nodes) {
+    for (int n = 0, next = 1; n < 5; n++) {
+        nodes[n].used = level_draw(r) & 255;
+        for (int k = 0; k < WF_TREE_WIDTH; k++) {
             nodes[n].child[k] = !n && k % 2 ? next++ : ~(8 * n + k);
             for (int axis = 0; axis < 3; axis++) {
-                double at = level_uniform(r, -2, 2), size = level_uniform(r, 0, 3);
-                nodes[n].low[axis][k] = none ? HUGE_VAL : at;
-                nodes[n].high[axis][k] = none ? -HUGE_VAL : at + size;
+                nodes[n].plane[axis][k] = level_uniform(r, -2, 2);
+                nodes[n].plane[3 + axis][k] = nodes[n].plane[axis][k] + level_uniform(r, 0, 3);
             }
         }
+    }
 }
 
 static void walk_tree(level_run *r) {
-    wf_walk_node nodes[5];
-    const wf_walk_tree tree = {nodes, 5, 5};
+    wf_tree_node nodes[5];
+    const wf_tree tree = {nodes, NULL, 5, 40, 5};
     walked w = {.count = 0};
     wf_walk walk = {.most = level_draw(r) % 2 ? HUGE_VAL : 3, .meet = meet, .user = &w};
     fill_tree(r, nodes);
     for (int axis = 0; axis < 3; axis++) {
-        walk.o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].low[axis][0];
+        walk.o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].plane[axis][0];
         walk.d[axis] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
     }
     if (r->wild) walk.o[0] = level_number(r), walk.d[1] = level_number(r);
@@ -403,7 +431,27 @@ static void walk_tree(level_run *r) {
     level_keep_doubles(r, w.near, w.count);
 }
 
-static const level_row walks[] = {{"walk.go", walk_tree, false, 0}};
+static void find_in_tree(level_run *r) {
+    wf_tree_node nodes[5];
+    int items[40], found[40];
+    const wf_tree tree = {nodes, items, 5, 40, 5};
+    wf_shaft shaft = {.most = level_draw(r) % 2 ? HUGE_VAL : 3};
+    fill_tree(r, nodes);
+    for (int k = 0; k < 40; k++) items[k] = 100 + k;
+    for (int axis = 0; axis < 3; axis++) {
+        shaft.o.low[axis] = level_uniform(r, -3, 3),
+        shaft.d.low[axis] = level_uniform(r, -1, 1);
+        shaft.o.high[axis] = shaft.o.low[axis] + level_uniform(r, 0, 0.5);
+        shaft.d.high[axis] = shaft.d.low[axis] + level_uniform(r, 0, 0.5);
+        shaft.rise[axis] = 1 / shaft.d.high[axis], shaft.fall[axis] = 1 / shaft.d.low[axis];
+    }
+    if (r->wild) shaft.o.high[0] = level_number(r);
+    int count = wf_walk_ops_at(r->level)->find(&tree, &shaft, (int)(level_draw(r) % 40), found);
+    for (int k = 0; k < count; k++) level_keep_integers(r, &(int64_t){found[k]}, 1);
+}
+
+static const level_row walks[] = {{"walk.go", walk_tree, false, 0},
+                                  {"walk.find", find_in_tree, false, 0}};
 
 /* ---- Light ---- */
 
