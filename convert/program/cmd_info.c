@@ -169,6 +169,9 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
     if (wf_video_is(path)) return wf_info_video(path, facts, err);
+    int timed = 0; /* parts that are subframes, and no layers of one picture */
+    if (!wf_source_timed_parts(path, &timed, NULL, NULL, NULL) && timed)
+        return tell_sequence(path, facts, err);
     wf_fact_text(facts, "kind", "picture");
     wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
     return tell_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);

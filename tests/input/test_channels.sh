@@ -79,6 +79,11 @@ check "all parts and layers are listed" \
 check "info tells the choice" exits 0 weft info parts.exr
 check "info has the part" prints "part              rgba (file)"
 check "info lists the others" prints "part 2 'diffuse': diffuse (R G B)"
+oiiotool rgba.part.exr --attrib:type=string weft:time 0/1 --attrib oiio:subimagename a \
+    rgba.part.exr --attrib:type=string weft:time 1/24 --attrib oiio:subimagename b --siappend -o timed.exr
+check "info on parts that are subframes" exits 0 weft info timed.exr
+check "tells of a sequence" prints "sequence"
+check "and its rate" prints "24 (file)"
 check "info as JSON" exits 0 weft info --json parts.exr
 check "info has the same rows" value "d['files'][0]['input'] == {
     'part': {'value': 'rgba', 'reason': 'file'}, 'layer': {'value': '', 'reason': 'default'},
