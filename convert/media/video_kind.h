@@ -14,6 +14,7 @@ typedef struct wf_video_options {
     size_t max_memory_bytes; /* of one picture */
     bool want_times;         /* of all pictures: info.times is filled where there are any */
     bool codes_only;         /* wf_video_next is not called */
+    bool progressive_only;   /* a later frame that says that it is interlaced is an error */
 } wf_video_options;
 
 /* Where chroma lies among the luma samples that share it: with the first of a line and, where
@@ -34,6 +35,7 @@ typedef struct wf_video_info {
     wf_layout layout;   /* WF_LINEAR: EXR; WF_RGB: other pictures */
     int bits;           /* of a code; 32: floats; 16 for pictures of unknown depth */
     bool full_range;
+    bool alpha;           /* there is some, which is not read */
     int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
     wf_transfer transfer; /* of the display it is made for */
     int across, down;     /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */
@@ -48,6 +50,7 @@ typedef struct wf_video_info {
     /* Where want_times asked for them and the file has them: when each picture is shown, in
      * ticks from any zero, ascending, [frames]. Owned by the video. */
     int64_t *times;
+    int64_t back; /* the picture, as coded, before which timestamps run backwards; 0: none */
     int64_t last_ticks; /* how long the last of them is shown; 0: that is not said */
     wf_rational tick_s;
 } wf_video_info;

@@ -11,6 +11,7 @@
 
 #include "convert/base/names.h"
 #include "convert/media/formats.h"
+#include "convert/media/structure/structure.h"
 #include "convert/media/y4m.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source_exr.h"
@@ -246,6 +247,22 @@ weft_status wf_video_seek(wf_video *video, int64_t picture, int64_t *next, weft_
         status = video->kind->seek(video, picture, err);
     *next = video->frame.index + 1;
     return status;
+}
+
+weft_status wf_video_check_whole(const wf_video *video, weft_error *err) {
+    wf_structure structure = {0};
+    char container[sizeof video->info.format];
+    size_t first = strcspn(video->info.format, ", ");
+    snprintf(container, sizeof container, "%.*s", (int)first, video->info.format);
+    if (video->pipe || wf_structure_read(video->path, container, &structure, NULL))
+        return WEFT_OK;
+    if (!structure.known || !*structure.missing) return WEFT_OK;
+    const wf_video_info *info = &video->info;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: it was cut off or is still being written: %s; %" PRId64
+                   " pictures (%.3f s) are there, and --frames takes some of them",
+                   video->path, structure.missing, info->frames,
+                   (double)info->frames / wf_ratio_value(info->raster.frame_rate));
 }
 
 void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines) {

@@ -27,6 +27,10 @@ weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool 
  * is given from there on is bit for bit what reading on would have given. */
 weft_status wf_video_seek(wf_video *video, int64_t picture, int64_t *next, weft_error *err);
 
+/* WEFT_FAILED where the file's own structure tells that it was cut off; pipes, and containers
+ * that do not say where they end, are taken for whole. */
+weft_status wf_video_check_whole(const wf_video *video, weft_error *err);
+
 /* When the picture last given is shown, in ticks of info.tick_s from any zero; INT64_MIN: it
  * does not say. How long it is shown; 0: it does not say. */
 int64_t wf_video_ticks(const wf_video *video);

@@ -88,6 +88,16 @@ static void tell_guess(const wf_run *run) {
                 m->full_range ? "full" : "narrow");
 }
 
+static void tell_alpha(const wf_run *run) {
+    const video_source *s = run->source;
+    if (s->info.alpha && run->job->alpha != WF_ALPHA_IGNORED)
+        wf_job_warn(
+            run->job,
+            "%s: it has alpha, which is not looked at: its pictures are taken as they are, "
+            "and --alpha ignore says that this is right",
+            s->path);
+}
+
 /* --from counts whatever the stream says; it is looked up when the output is settled. */
 static weft_status find_meaning(wf_run *run, weft_error *err) {
     video_source *s = run->source;
@@ -95,6 +105,7 @@ static weft_status find_meaning(wf_run *run, weft_error *err) {
     if (status) return status;
     wf_meaning_take(&s->meaning, &s->info, &run->report->taken);
     run->setup.decodes = true;
+    tell_alpha(run);
     if (run->job->from) return WEFT_OK;
     if (*s->meaning.colors.trouble)
         return wf_fail(err, WEFT_USAGE, "%s: %s", s->path, s->meaning.colors.trouble);
@@ -117,8 +128,11 @@ static weft_status make_light(wf_run *run, weft_error *err) {
 static weft_status open_video(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     wf_video *video;
-    const wf_video_options options = {
-        .max_memory_bytes = run->job->max_memory_bytes, .want_times = true, .codes_only = true};
+    const wf_video_options options = {.max_memory_bytes = run->job->max_memory_bytes,
+                                      .want_times = true,
+                                      .codes_only = true,
+                                      .progressive_only =
+                                          run->job->input_scan != WF_INPUT_PROGRESSIVE};
     weft_status status = wf_video_open(s->path, &options, &video, err);
     if (status) return status;
     s->info = *wf_video_info_of(video);
@@ -177,6 +191,13 @@ static weft_status settle_pictures(const weft_job *job, video_source *s, weft_er
     return wf_fail(err, WEFT_USAGE,
                    "%s: --frames %s, and its pictures are numbered 0 to %" PRId64, s->path,
                    job->frames, there - 1);
+}
+
+/* A file that was cut off has fewer pictures than it was to have; whoever names some of those
+ * that are there knows it. */
+static weft_status check_whole(const weft_job *job, const video_source *s, weft_error *err) {
+    return job->frames || job->output_end ? WEFT_OK
+                                          : wf_video_window_check_whole(s->window, err);
 }
 
 /* What cannot be done before the end is known. */
@@ -338,6 +359,7 @@ static weft_status count(wf_run *run, weft_error *err) {
     weft_status status = make_light(run, err);
     if (!status) status = settle_pictures(job, s, err);
     if (!status) status = check_pipe(job, s, err);
+    if (!status) status = check_whole(job, s, err);
     if (!status) status = settle_rate(run, &rate, err);
     s->stated = rate;
     if (!status && job->raster.pulldown) status = wf_settle_film(job, "pictures", &rate, err);

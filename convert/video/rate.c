@@ -75,7 +75,18 @@ weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_ration
 
 /* ---- Pictures that last unequally long ---- */
 
+static weft_status refuse_back(const wf_video_info *info, const char *path, weft_error *err) {
+    double rate = wf_ratio_given(info->rate) ? wf_ratio_value(info->rate) : 0;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its timestamps run backwards or begin again before picture %" PRId64
+        " (%.3f s); cut the video there, or give --subframe-rate to take all pictures "
+        "as equally long",
+        path, info->back, rate > 0 ? (double)info->back / rate : 0);
+}
+
 static weft_status check_order(const wf_video_info *info, const char *path, weft_error *err) {
+    if (info->back) return refuse_back(info, path, err);
     for (int64_t k = 1; k < info->frames; k++) {
         double at_s = (double)(info->times[k] - info->times[0]) * wf_ratio_value(info->tick_s);
         if (info->times[k] > info->times[k - 1]) continue;

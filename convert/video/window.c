@@ -196,6 +196,10 @@ weft_status wf_video_window_jump(wf_video_window *w, int64_t number, weft_error 
     return wf_video_seek(w->video, number, &w->next, err);
 }
 
+weft_status wf_video_window_check_whole(const wf_video_window *w, weft_error *err) {
+    return wf_video_check_whole(w->video, err);
+}
+
 bool wf_video_window_find(const wf_video_window *w, int64_t number, const uint16_t *plane[3]) {
     for (size_t i = 0; i < w->slots; i++) {
         if (w->slot[i].number != number) continue;

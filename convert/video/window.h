@@ -42,6 +42,9 @@ void wf_video_window_read_ahead(wf_video_window *window);
  * there; what is kept stays. */
 weft_status wf_video_window_jump(wf_video_window *window, int64_t number, weft_error *err);
 
+/* wf_video_check_whole. */
+weft_status wf_video_window_check_whole(const wf_video_window *window, weft_error *err);
+
 /* The codes of a picture that is kept, until it is forgotten; false: it is not. */
 bool wf_video_window_find(const wf_video_window *window, int64_t number,
                           const uint16_t *plane[3]);

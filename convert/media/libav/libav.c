@@ -2,6 +2,7 @@
  * libavcodec can read. */
 #include "convert/media/libav/libav.h"
 
+#include "convert/media/libav/ffv1_slices.h"
 #include "convert/media/libav/libav_reading.h"
 #include "convert/media/libav/libav_times.h"
 
@@ -31,8 +32,11 @@ static weft_status failed(const wf_video *v, const char *doing, int code, weft_e
 enum { PIPE_BYTES = 1 << 16 };
 
 static int read_pipe(void *opaque, uint8_t *to, int size) {
-    FILE *pipe = opaque;
+    wf_video *v = opaque;
+    reading *r = v->state;
+    FILE *pipe = v->pipe;
     size_t got = fread(to, 1, (size_t)size, pipe);
+    r->pipe_bytes += (int64_t)got;
     return got ? (int)got : ferror(pipe) ? AVERROR(EIO) : AVERROR_EOF;
 }
 
@@ -41,8 +45,7 @@ static weft_status use_pipe(wf_video *v, weft_error *err) {
     reading *r = v->state;
     uint8_t *buffer = av_malloc(PIPE_BYTES);
     r->format = avformat_alloc_context();
-    if (buffer)
-        r->pipe = avio_alloc_context(buffer, PIPE_BYTES, 0, v->pipe, read_pipe, NULL, NULL);
+    if (buffer) r->pipe = avio_alloc_context(buffer, PIPE_BYTES, 0, v, read_pipe, NULL, NULL);
     if (!r->pipe) av_free(buffer);
     if (!r->format || !r->pipe) return wf_video_no_memory(v, err);
     r->format->pb = r->pipe;
@@ -65,6 +68,9 @@ static weft_status find_stream(wf_video *v, weft_error *err) {
     if (code < 0) return failed(v, "its streams cannot be found out", code, err);
     r->stream = av_find_best_stream(r->format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
     if (r->stream < 0) return wf_fail(err, WEFT_FAILED, "%s: it holds no video", v->path);
+    if (r->format->streams[r->stream]->disposition & AV_DISPOSITION_ATTACHED_PIC)
+        return wf_fail(err, WEFT_FAILED, "%s: it holds no video, only a picture as its cover",
+                       v->path);
     return WEFT_OK;
 }
 
@@ -81,6 +87,10 @@ static weft_status open_decoder(wf_video *v, weft_error *err) {
     if (!r->codec || !r->packet || !r->frame) return wf_video_no_memory(v, err);
     int code = avcodec_parameters_to_context(r->codec, par);
     r->codec->thread_count = 0; /* one a core */
+    r->codec->err_recognition = AV_EF_CRCCHECK;
+    /* Slices that end early are concealed without a word. Other decoders of FFmpeg 5.1 abort
+     * the program where they are told to stop at errors (MPEG-4). */
+    if (par->codec_id == AV_CODEC_ID_H264) r->codec->err_recognition |= AV_EF_EXPLODE;
     if (code >= 0) code = avcodec_open2(r->codec, decoder, NULL);
     return code < 0 ? failed(v, "its decoder cannot be opened", code, err) : WEFT_OK;
 }
@@ -139,6 +149,18 @@ static bool is_wanted(reading *r) {
     return !r->until_key;
 }
 
+/* Whether what carries the packet, or FFV1's checksums, say that it is damaged. Where packets
+ * before it had checksums it has them too. */
+static bool is_damaged(reading *r) {
+    const AVPacket *p = r->packet;
+    if (p->flags & AV_PKT_FLAG_CORRUPT) return true;
+    if (r->codec->codec_id != AV_CODEC_ID_FFV1 || !r->codec->extradata_size) return false;
+    wf_ffv1_slices slices = wf_ffv1_check(p->data, (size_t)p->size);
+    bool damaged = slices == WF_FFV1_DAMAGED || (r->checked && slices != WF_FFV1_SOUND);
+    r->checked |= slices == WF_FFV1_SOUND;
+    return damaged;
+}
+
 /* Hands the decoder the next packet of the stream; at the end, that there are no more. */
 static weft_status feed(wf_video *v, weft_error *err) {
     reading *r = v->state;
@@ -149,10 +171,10 @@ static weft_status feed(wf_video *v, weft_error *err) {
         return WEFT_OK;
     }
     if (code < 0) return failed(v, "it cannot be read to its end", code, err);
-    bool damaged = r->packet->flags & AV_PKT_FLAG_CORRUPT;
-    bool wanted = is_wanted(r);
-    if (wanted) note_packet(r);
-    if (wanted) code = damaged ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
+    if (is_wanted(r)) {
+        note_packet(r);
+        code = is_damaged(r) ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
+    }
     av_packet_unref(r->packet);
     if (code >= 0) return WEFT_OK;
     return undecodable(v, code, err);
@@ -243,14 +265,18 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
                              AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_PAL |
                              AV_PIX_FMT_FLAG_BITSTREAM;
     if (!d || d->flags & strange || d->comp[0].depth < 8 || d->comp[0].depth > 16)
-        return wf_fail(err, WEFT_FAILED, "%s: its pixels are %s, which is not read", v->path,
-                       d ? d->name : "unknown");
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: its pixels are %s, which is not read; convert it first, such as with "
+            "ffmpeg -i IN -pix_fmt gbrp -c:v ffv1 OUT.mkv",
+            v->path, d ? d->name : "unknown");
     wf_video_info *info = &v->info;
     bool rgb = d->flags & AV_PIX_FMT_FLAG_RGB, jpeg = !strncmp(d->name, "yuvj", 4);
     snprintf(info->format, sizeof info->format, "%s %s %s", r->format->iformat->name,
              avcodec_get_name(r->codec->codec_id), d->name);
     info->layout = rgb ? WF_RGB : WF_YCBCR;
     info->bits = d->comp[0].depth;
+    info->alpha = d->flags & AV_PIX_FMT_FLAG_ALPHA;
     info->full_range = rgb || jpeg || r->frame->color_range == AVCOL_RANGE_JPEG;
     info->planes = d->nb_components < 3 ? 1 : 3;
     info->across = 1 << d->log2_chroma_w;
@@ -336,6 +362,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     if (!status && !r->have)
         status = wf_fail(err, WEFT_FAILED, "%s: there is no frame in its video", v->path);
     if (!status) status = describe_pixels(v, err);
+    if (!status) status = wf_libav_check_stream(v, err);
     if (status) return status;
     describe_stream(v, label);
     AVRational tick = r->format->streams[r->stream]->time_base;
@@ -373,21 +400,6 @@ static void take_frame(wf_video *v) {
             wf_video_take_codes(v, p, y, line_codes(v, p, y + v->info.interval_lines));
 }
 
-static weft_status check_frame(const wf_video *v, weft_error *err) {
-    const reading *r = v->state;
-    const AVFrame *f = r->frame;
-    if (f->width == v->info.width_px && f->height == v->info.lines + v->info.interval_lines &&
-        av_pix_fmt_desc_get((enum AVPixelFormat)f->format) == r->pixels)
-        return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED,
-                   "%s: frame %" PRId64
-                   " (%.3f s) is %dx%d %s, and the ones before it are %dx%d %s; cut the video "
-                   "there, and convert the pieces one by one",
-                   v->path, v->frame.index, time_s(v), f->width, f->height,
-                   av_get_pix_fmt_name((enum AVPixelFormat)f->format), v->info.width_px,
-                   v->info.lines, r->pixels->name);
-}
-
 /* How long the stream states to be; 0 if it does not. Matroska keeps that in a tag. */
 static double stated_length_s(const reading *r) {
     const AVStream *stream = r->format->streams[r->stream];
@@ -409,6 +421,13 @@ static int64_t stated_packets(const reading *r) {
     return !strcmp(format, "mxf") && stream->duration > 0 ? stream->duration : 0;
 }
 
+/* Packets of transport streams have 188 bytes, and with what recorders add 192 or 204. */
+static bool ends_in_packet(const reading *r) {
+    int64_t bytes = r->pipe_bytes;
+    bool stream = !strcmp(r->format->iformat->name, "mpegts");
+    return stream && bytes % 188 && bytes % 192 && bytes % 204;
+}
+
 /* libavformat does not tell a file that was cut off from one that has ended, so the length
  * is compared. */
 static weft_status check_end(const wf_video *v, weft_error *err) {
@@ -417,7 +436,8 @@ static weft_status check_end(const wf_video *v, weft_error *err) {
     double frame_s = 1 / wf_ratio_value(v->info.raster.frame_rate);
     bool matroska = !strncmp(r->format->iformat->name, "matroska", 8);
     double length_s = matroska ? stated_length_s(r) : 0;
-    if (r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s) return WEFT_OK;
+    bool whole = r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s;
+    if (whole && !ends_in_packet(r)) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: it ends after %" PRId64
                    " frames (%.3f s), before what it says is its end; write it again",
@@ -430,7 +450,7 @@ static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
     *more = r->have;
     if (status) return status;
     if (!r->have) return check_end(v, err);
-    status = check_frame(v, err);
+    status = wf_libav_check_frame(v, time_s(v), err);
     if (!status && !(v->take_codes && !v->code[0])) take_frame(v);
     v->frame.timed = r->frame->best_effort_timestamp != AV_NOPTS_VALUE;
     v->frame.ticks = r->frame->best_effort_timestamp;

@@ -17,15 +17,19 @@ typedef struct wf_libav_reading {
     AVFrame *frame;
     const AVPixFmtDescriptor *pixels;
     int stream;
+    AVRational aspect; /* of the first frame, and its code points: */
+    int primaries, transfer, matrix, range;
     bool have; /* frame holds the next one */
     bool drained;
+    bool checked;    /* its packets have checksums */
     int64_t packets; /* of the stream, read so far */
     int64_t listed;  /* of the stream, in the whole file; 0: they have not been counted */
     double end_s;    /* of the last one */
     bool until_key;  /* packets are passed over up to the next keyframe, which is shown at: */
     int64_t key_ticks;
-    uint16_t *code;    /* [width] */
-    AVIOContext *pipe; /* what reads video->pipe; NULL: a file */
+    uint16_t *code;     /* [width] */
+    int64_t pipe_bytes; /* that have been read */
+    AVIOContext *pipe;  /* what reads video->pipe; NULL: a file */
 } wf_libav_reading;
 
 /* Opens the file and a decoder of its video; closes what was opened of them. */
@@ -34,6 +38,14 @@ void wf_libav_close_stream(wf_video *video);
 
 /* Decodes until a frame is there, however damaged, or the stream has ended. */
 weft_status wf_libav_decode(wf_video *video, weft_error *err);
+
+/* With the first frame in hand: whether the stream is shown as it is coded, not turned. Notes
+ * what other frames are held against. (libav_checks.c) */
+weft_status wf_libav_check_stream(wf_video *video, weft_error *err);
+
+/* Whether the frame in hand, which is shown at time_s, is as the first one was.
+ * (libav_checks.c) */
+weft_status wf_libav_check_frame(const wf_video *video, double time_s, weft_error *err);
 
 /* wf_video_kind.seek: by the keyframe at or before the picture, where the listed times tell
  * pictures apart and what is decoded from there reaches it; else from the beginning on.

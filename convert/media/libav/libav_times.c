@@ -12,11 +12,18 @@ typedef struct listing {
     int64_t packets;          /* with those that are not shown */
     int64_t last, last_ticks; /* the latest time, and how long its packet lasts */
     bool all;                 /* every packet so far had a time */
+    int64_t last_dts, back;   /* info.back, from the times that packets are decoded at */
 } listing;
 
 static int by_time(const void *left, const void *right) {
     const int64_t *a = left, *b = right;
     return (*a > *b) - (*a < *b);
+}
+
+static void note_order(listing *l, int64_t dts) {
+    if (dts == AV_NOPTS_VALUE) return;
+    if (l->count && !l->back && dts < l->last_dts) l->back = (int64_t)l->count;
+    l->last_dts = dts;
 }
 
 static bool add(listing *l, int64_t time, int64_t ticks) {
@@ -44,8 +51,10 @@ static bool list_packets(AVFormatContext *format, int stream, listing *l) {
         if ((int)i != stream) format->streams[i]->discard = AVDISCARD_ALL;
     while (fits && av_read_frame(format, packet) >= 0) {
         l->packets += packet->stream_index == stream;
-        if (packet->stream_index == stream && !(packet->flags & AV_PKT_FLAG_DISCARD))
+        if (packet->stream_index == stream && !(packet->flags & AV_PKT_FLAG_DISCARD)) {
+            note_order(l, packet->dts);
             fits = add(l, packet->pts, packet->duration);
+        }
         av_packet_unref(packet);
     }
     av_packet_free(&packet);
@@ -70,7 +79,7 @@ static bool open_again(const wf_video *v, int stream, AVFormatContext **format) 
 
 weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, weft_error *err) {
     AVFormatContext *format = NULL;
-    listing l = {.all = true};
+    listing l = {.all = true, .last_dts = AV_NOPTS_VALUE};
     bool fits = true;
     if (can_be_read_twice(v->path) && open_again(v, stream, &format)) {
         AVRational tick = format->streams[stream]->time_base;
@@ -82,6 +91,7 @@ weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, weft_error
         qsort(l.time, l.count, sizeof *l.time, by_time);
         v->info.times = l.time;
         v->info.last_ticks = l.last_ticks;
+        v->info.back = l.back;
         l.time = NULL;
     }
     *packets = l.packets;

@@ -1,0 +1,112 @@
+#!/bin/bash
+# Video that was cut off, damaged or joined of unlike parts, and files that are no video: what is said, and that nothing
+# is left.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "fuzz-y4m and fuzz-libav read damaged video"
+needs_libav
+needs ffmpeg python3
+
+box="--from rec709 --raster 64x32@25i --aperture box --bits 8 -q --overwrite"
+# coded NAME OPTION..: 100 pictures of ffmpeg's test signal, coded.
+coded() { quiet_ffmpeg -f lavfi -i testsrc2=s=64x32:r=100:d=1 -pix_fmt yuv420p "${@:2}" "$1"; }
+
+# stops PATTERN FILE [OPTION..]: status 1, the reason, and no output.
+stops()
+{
+    local pattern=$1 file=$2
+    shift 2
+    fails "$pattern" weft convert "$file" $box "$@" -o no.y4m && [ ! -e no.y4m ] && [ "$(wc -l <said)" = 1 ]
+}
+
+# ---- Cut off ----
+
+coded b.mp4 -c:v libx264 -bf 2 -g 20 -movflags +faststart
+coded b.mkv -c:v libx264 -bf 2 -g 20
+coded b.ts -c:v libx264 -bf 2 -g 20
+coded f.mkv -c:v ffv1 -level 3 -slicecrc 1
+coded f.avi -c:v ffv1
+coded p.mov -c:v prores_ks
+coded m.mxf -c:v mpeg2video -r 50
+for file in b.mp4 b.mkv b.ts f.mkv f.avi p.mov m.mxf; do
+    check "$file" exits 0 weft convert $file $box -o o.y4m
+    for tenth in 3 6 9; do
+        head -c $(($(stat -c %s $file) * tenth / 10 + 5)) $file >cut.${file##*.}
+        check "$tenth tenths of $file" stops "cut.${file##*.}: " cut.${file##*.}
+    done
+done
+head -c $(($(stat -c %s f.mkv) / 2)) f.mkv >cut.mkv
+check "it is said" stops "cut off.*([0-9.]* s)" cut.mkv
+check "and some is taken" exits 0 weft convert cut.mkv $box --frames 0-39 -o o.y4m
+check "by a pipe" fails "before what it says is its end" weft convert <(cat cut.mkv) $box -o no.y4m
+head -c $(($(stat -c %s b.ts) / 376 * 188 + 100)) b.ts >cut.ts
+check "a pipe within a packet" fails "." weft convert <(cat cut.ts) $box -o no.y4m
+
+# ---- Damaged ----
+
+# spoilt FROM TO AT: 64 bytes of it become others.
+spoilt()
+{
+    cp "$1" "$2"
+    head -c 64 /dev/zero | tr '\0' '\245' | dd of="$2" bs=1 seek="$3" conv=notrunc 2>dd.said
+}
+for place in 20000 35000 50000; do
+    spoilt f.mkv bad.mkv $place
+    check "FFV1 with checksums, at $place" stops "about frame [0-9]* ([0-9.]* s)" bad.mkv
+    check "by a pipe" fails "about frame [0-9]* ([0-9.]* s)" weft convert <(cat bad.mkv) $box -o no.y4m
+done
+for place in 20000 20064 20128 20192 20256 20320; do spoilt b.ts bad.ts $place && mv bad.ts b.ts; done
+mv b.ts bad.ts
+check "H.264" stops "frame [0-9]* ([0-9.]* s)" bad.ts
+
+# ---- Joined ----
+
+again="-mpegts_flags +initial_discontinuity"
+coded wide.ts $again -vf scale=128:32 -c:v libx264
+coded full.ts $again -pix_fmt yuv444p -c:v libx264
+coded aspect.ts $again -vf setsar=4/3 -c:v libx264
+coded tagged.ts $again -c:v libx264 -colorspace bt2020nc -color_primaries bt2020 -color_trc smpte2084
+coded plain.ts -c:v libx264
+for other in "wide is.128x32" "full yuv444p" "aspect pixels.of.another.aspect" "tagged other.colors"; do
+    cat plain.ts "${other% *}.ts" >joined.ts
+    check "${other% *} after plain" stops "frame 100 (1.000 s).*${other#* }" joined.ts --subframe-rate 100
+done
+check "times that begin again" stops "before picture 100 (1.000 s)" joined.ts
+coded fields.ts $again -c:v libx264 -flags +ilme+ildct -x264-params tff=1
+cat plain.ts fields.ts >joined.ts
+check "fields after pictures" stops "frame 100 (1.000 s) is interlaced" joined.ts --subframe-rate 100
+check "which is wrong" exits 0 weft convert joined.ts $box --subframe-rate 100 --input-scan progressive -o o.y4m
+
+# ---- No video ----
+
+quiet_ffmpeg -f lavfi -i sine=d=1 sound.wav
+quiet_ffmpeg -f lavfi -i testsrc2=s=64x64:d=1 -frames:v 1 cover.png
+quiet_ffmpeg -i sound.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic cover.m4a
+quiet_ffmpeg -i b.mp4 -i cover.png -map 1 -map 0 -c copy -disposition:v:0 attached_pic first.mp4
+check "sound" stops "holds no video" sound.wav
+check "sound and a cover" stops "only a picture as its cover" cover.m4a
+check "a cover before the video" exits 0 weft convert first.mp4 $box -o o.y4m
+check "video" exits 0 weft convert b.mp4 $box -o o2.y4m
+check "is taken all the same" cmp o.y4m o2.y4m
+
+# ---- Pictures of other kinds ----
+
+quiet_ffmpeg -i b.mp4 -c copy -metadata:s:v rotate=90 turned.mov
+check "turned" stops "turned by" turned.mov
+coded pal.avi -pix_fmt pal8 -c:v rawvideo
+check "a palette" stops "pixels are pal8.*ffmpeg" pal.avi
+for matrix in ycgco ictcp bt2020c; do
+    coded matrix.mkv -c:v libx264 -colorspace $matrix
+    check "$matrix" fails "matrix is number" weft convert matrix.mkv $box -o no.y4m
+done
+for pixels in gray gray10le gray16le gbrp gbrp12le rgb48le yuv410p yuv411p yuv440p yuv444p14le; do
+    coded kind.mkv -pix_fmt $pixels -c:v ffv1
+    check "$pixels" exits 0 weft convert kind.mkv $box -o o.y4m
+done
+coded alpha.mkv -pix_fmt yuva444p -c:v ffv1
+check "alpha" exits 0 weft convert alpha.mkv ${box/-q/} -o o.y4m
+check "is told" says "it has alpha"
+check "or named" exits 0 weft convert alpha.mkv ${box/-q/} --alpha ignore -o o.y4m
+check "and not told" [ -z "$(grep alpha said)" ]
+check "nothing is left" [ ! -e no.y4m ]
+
+finish
