@@ -47,6 +47,7 @@ typedef struct wf_image_info {
                              data.y0. Reading whole bands reads nothing twice. */
     bool whole;         /* the reader holds the whole picture (not chunked): open few at once */
     char timecode[16];  /* "" if none */
+    bool timecode_all;  /* its frames are counted one by one, not in pairs, at any rate */
     bool timecode_mark; /* its field mark: the second of a pair */
     char raster[64];    /* weft:raster; "" if none */
     wf_color_said colors;

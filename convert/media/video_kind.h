@@ -45,8 +45,10 @@ typedef struct wf_video_info {
                              guess */
     int64_t frames;       /* -1: not known before the end */
     wf_video_tags tags;
-    wf_rational rate, aspect; /* as the file says; {0, 0}: it does not */
-    bool interlaced;          /* as the file says */
+    wf_rational rate, aspect;  /* as the file says; {0, 0}: it does not */
+    bool interlaced;           /* as the file says */
+    char timecode[16];         /* of the first picture, as the file says; "": it does not */
+    wf_rational timecode_rate; /* labels a second; {0, 0}: it does not say */
     /* Where want_times asked for them and the file has them: when each picture is shown, in
      * ticks from any zero, ascending, [frames]. Owned by the video. */
     int64_t *times;

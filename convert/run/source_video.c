@@ -278,6 +278,26 @@ static void describe_first(video_source *s) {
                                .frames = s->info.rate};
 }
 
+/* When the first unit is shown, after the first picture of the video. */
+static wf_rational first_s(const video_source *s) {
+    const wf_video_info *info = &s->info;
+    if (!s->times_s) return wf_ratio_div(wf_ratio(s->picture, s->step), s->stated);
+    return wf_ratio_mul(wf_ratio(info->times[s->picture] - info->times[0], 1), info->tick_s);
+}
+
+static void start_timecode(wf_run *run) {
+    video_source *s = run->source;
+    wf_image_info *first = &s->first;
+    bool told = wf_ratio_given(s->info.timecode_rate);
+    snprintf(first->timecode, sizeof first->timecode, "%s", s->info.timecode);
+    first->timecode_all = true;
+    first->frames = told ? s->info.timecode_rate : s->info.rate;
+    if (s->picture) wf_advance_timecode(run->job, first, first_s(s));
+    wf_start_timecode(run->job, &run->setup, first);
+    if (*run->setup.timecode)
+        wf_take(&run->report->taken, "timecode", run->setup.timecode, "file");
+}
+
 static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
     const weft_job *job = run->job;
     video_source *s = run->source;
@@ -368,7 +388,7 @@ static weft_status count(wf_run *run, weft_error *err) {
     describe_first(s);
     wf_warn_of_few(job, mean_rate(s, rate));
     status = settle_fields(run, rate, err);
-    if (!status) wf_start_timecode(job, &run->setup, &s->first);
+    if (!status) start_timecode(run);
     return status;
 }
 

@@ -365,6 +365,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     if (!status) status = wf_libav_check_stream(v, err);
     if (status) return status;
     describe_stream(v, label);
+    wf_libav_timecode(v);
     AVRational tick = r->format->streams[r->stream]->time_base;
     v->info.tick_s = wf_ratio(tick.num, tick.den);
     if (v->options.want_times) status = wf_libav_times(v, r->stream, &r->listed, err);

@@ -47,6 +47,10 @@ weft_status wf_libav_check_stream(wf_video *video, weft_error *err);
  * (libav_checks.c) */
 weft_status wf_libav_check_frame(const wf_video *video, double time_s, weft_error *err);
 
+/* With the first frame in hand: fills info.timecode and its rate, of a track, a tag or MPEG's
+ * first group of pictures. (libav_timecode.c) */
+void wf_libav_timecode(wf_video *video);
+
 /* wf_video_kind.seek: by the keyframe at or before the picture, where the listed times tell
  * pictures apart and what is decoded from there reaches it; else from the beginning on.
  * (libav_seek.c) */

@@ -1,12 +1,13 @@
 /* The timecode of frame 0. */
 #include "convert/run/time/timecode_start.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define MOST_LABELS 60 /* a second: what renderers call framesPerSecond may be subframes */
 #define A_FRAMES    5  /* labels from one A frame to the next */
 
-static wf_rational counted_rate(const weft_job *job, const wf_image_info *first) {
+wf_rational wf_timecode_rate(const weft_job *job, const wf_image_info *first) {
     wf_rational told = first->frames;
     if (wf_ratio_given(told) && wf_timecode_base(told) <= MOST_LABELS) return told;
     return job->raster.pulldown ? wf_raster_film_rate(&job->raster) : job->raster.frame_rate;
@@ -15,9 +16,9 @@ static wf_rational counted_rate(const weft_job *job, const wf_image_info *first)
 static void take_label(const weft_job *job, wf_setup *s, const wf_image_info *first) {
     wf_timecode label;
     const char *name = job->inputs[0];
-    wf_rational rate = counted_rate(job, first);
+    wf_rational rate = wf_timecode_rate(job, first);
     bool read = wf_parse_timecode(first->timecode, &label);
-    if (read && wf_timecode_together(rate) == 2)
+    if (read && !first->timecode_all && wf_timecode_together(rate) == 2)
         label.frames = 2 * label.frames + first->timecode_mark;
     if (!read || !wf_timecode_convert(label, rate, job->raster.frame_rate, &label)) {
         wf_job_warn(job,
@@ -42,6 +43,17 @@ static void check_a_frame(const weft_job *job, const wf_setup *s) {
                     "frame 0 is an A frame (AA BB BC CD DD) and its timecode %s: by convention "
                     "A frames have frames that 5 divides",
                     s->output_options.timecode);
+}
+
+void wf_advance_timecode(const weft_job *job, wf_image_info *first, wf_rational by_s) {
+    wf_timecode label;
+    char why[256], text[WF_TIMECODE_SIZE];
+    wf_rational rate = wf_timecode_rate(job, first);
+    if (!wf_parse_timecode(first->timecode, &label) ||
+        !wf_timecode_check(&label, rate, why, sizeof why))
+        return;
+    label = wf_timecode_add(&label, wf_ratio_floor_mul(wf_ratio_mul(by_s, rate), 1), rate);
+    snprintf(first->timecode, sizeof first->timecode, "%s", wf_timecode_text(&label, text));
 }
 
 void wf_start_timecode(const weft_job *job, wf_setup *s, const wf_image_info *first) {

@@ -10,4 +10,12 @@
  * else at the film's rate under a cadence and at the raster's without. */
 void wf_start_timecode(const weft_job *job, wf_setup *setup, const wf_image_info *first);
 
+/* Labels a second of the input's timecode: what it says, as far as that can be, else what the
+ * raster shows. */
+wf_rational wf_timecode_rate(const weft_job *job, const wf_image_info *first);
+
+/* Moves the input's timecode to the picture that is shown so long after the one that it is of.
+ */
+void wf_advance_timecode(const weft_job *job, wf_image_info *first, wf_rational by_s);
+
 #endif
