@@ -234,11 +234,23 @@ void wf_scene_tell_traced(const wf_run *run, wf_report *report) {
     }
 }
 
+/* All that was looked at was proved to be background. */
+static void warn_of_nothing(const wf_run *run, const wf_report *report) {
+    const wf_scene_source *s = run->source;
+    if (report->tiles > 0 && report->tiles_skipped == report->tiles &&
+        s->scene.object_count > 0)
+        wf_job_warn(run->job,
+                    "%s: nothing of the scene is in view; look at eye= and look_at= of its "
+                    "camera, and at where things are by then",
+                    run->job->inputs[0]);
+}
+
 static void tell(const wf_run *run, wf_report *report) {
     const wf_scene_source *s = run->source;
     wf_error_sum all = {0, 0};
     if (!run->sums) return;
     wf_scene_tell_traced(run, report);
+    warn_of_nothing(run, report);
     report->trace_s = wf_crew_times(&run->crew).source_s;
     for (int t = 0; t < run->crew.threads; t++) {
         wf_error_sum one = wf_sampling_error(s->scratch[t]);

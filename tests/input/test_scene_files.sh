@@ -32,6 +32,8 @@ warns() {
 echo "$scene sphere{}" >forgot.lua
 check "a solid that is not added" warns 'forgot.lua:1: solid: it is not in the picture' forgot.lua -o f.y4m
 check "a --set that nobody reads" warns '\-\-set: the scene does not read param.n' bom.lua --set n=3 -o f.y4m
+echo "$scene camera{eye={0, 1, 6}, look_at={0, 1, 9}}" >away.lua
+check "nothing in view" warns 'away.lua: nothing of the scene is in view' away.lua -o f.y4m
 check "huge values of --set" exits 0 weft render "${small[@]}" bom.lua --set n=1e999 --set "m=$(printf '9%.0s' {1..100000})" -q -o f.y4m
 
 # ---- Frames ----

@@ -144,6 +144,7 @@ static int call_keyframes(lua_State *lua) {
         wf_scene_error(lua, "keyframes",
                        "it takes a list of {time=, translate=, axis=, degrees=}");
     int count = (int)lua_rawlen(lua, 2);
+    wf_sandbox_charge(lua, 16 * (double)count);
     wf_op op = {.kind = WF_OP_KEYS, .first_key = (int)b->keys.count, .key_count = count};
     for (int k = 0; k < count; k++) {
         lua_rawgeti(lua, 2, k + 1);

@@ -212,6 +212,7 @@ static int call_polyhedron(lua_State *lua) {
     if (lua_type(lua, -1) != LUA_TTABLE || !lua_rawlen(lua, -1))
         wf_scene_error(lua, "polyhedron", "planes must be a list of planes {nx, ny, nz, d}");
     size_t count = (size_t)lua_rawlen(lua, -1);
+    wf_sandbox_charge(lua, 16 * (double)count + wf_polyhedron_cost((int)count));
     wf_solid solid = {.kind = WF_POLYHEDRON,
                       .place = wf_identity(),
                       .first_plane = (int)b->planes.count,

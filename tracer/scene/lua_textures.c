@@ -72,6 +72,9 @@ typedef struct image_table {
     bool srgb;
 } image_table;
 
+/* A file costs so many steps, whether it is a picture or not. */
+#define FILE_STEPS 20000
+
 static void load_image(lua_State *lua, const image_table *f, wf_texture *t) {
     wf_builder *b = wf_builder_of(lua);
     const wf_load_options *o = b->options;
@@ -82,6 +85,7 @@ static void load_image(lua_State *lua, const image_table *f, wf_texture *t) {
     int used = snprintf(path, sizeof path, "%s%s", *f->file == '/' ? "" : b->folder, f->file);
     if (used < 0 || used >= (int)sizeof path)
         wf_scene_error(lua, "image", "its path is too long");
+    wf_sandbox_charge(lua, FILE_STEPS);
     /* Its place in the list first, so that an error after loading loses nothing. */
     wf_image *to = wf_list_grow(lua, &b->images, sizeof image, 1);
     if (!o->load_image(o->image_user, path, f->srgb, &image, why, sizeof why))

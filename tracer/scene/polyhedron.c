@@ -64,6 +64,11 @@ static void hold_corner(double box[7], const double p[3]) {
     box[6] = 1;
 }
 
+double wf_polyhedron_cost(int planes) {
+    double n = planes;
+    return planes > MOST_CORNERED ? 0 : n * n * n / 6;
+}
+
 void wf_polyhedron_bound(wf_solid *solid, const wf_plane *planes) {
     const wf_plane *f = planes + solid->first_plane;
     int n = solid->plane_count;

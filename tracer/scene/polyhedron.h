@@ -7,4 +7,7 @@
  * or of very many planes. */
 void wf_polyhedron_bound(wf_solid *solid, const wf_plane *planes);
 
+/* About how many steps of a script that takes. */
+double wf_polyhedron_cost(int planes);
+
 #endif

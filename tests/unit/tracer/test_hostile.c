@@ -119,6 +119,13 @@ static const struct {
     {"local s = '' while true do s = s .. 'x' end", "steps"},
 
     /* Scenes that do not end. */
+    {"local t = {} for i = 1, 64 do t[i] = {math.sin(i), math.cos(i), math.sin(9 * i), 1} end "
+     "while true do polyhedron{planes=t} end",
+     NULL},
+    {"local t = {} for i = 1, 5e4 do t[i] = {0, 0, 1, 1} end while true do "
+     "polyhedron{planes=t} end",
+     NULL},
+    {"while true do pcall(image, {file='no.png'}) end", "steps"},
     {"while true do add(sphere{}) end", NULL},
     {"local s = sphere{} while true do s = s:translate{1, 0, 0} end", NULL},
     {"local s = sphere{} for i = 1, 60 do s = union(s, s) end add(s)", NULL},
