@@ -96,7 +96,7 @@ convert/run         : filters/* color/* tracer/* convert/base convert/job conver
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
-convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/run convert/check convert/check/verify convert/plot
+convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/plot
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check
 '
 # The public header belongs to no room, and what the build makes of color/weft.ocio is a string.

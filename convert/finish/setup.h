@@ -23,7 +23,7 @@ typedef struct wf_setup {
 
     struct wf_sound *sound; /* NULL: there is none */
     wf_rational sound_s; /* when frame 0 begins, on the clock of the input's sound; {0, 0}: 0 */
-    bool retimed;        /* the source shows pictures at another speed than that sound has */
+    wf_rational speed;   /* of pictures as they are shown, that clock's being 1; {0, 0}: 1 */
 
     wf_raster raster; /* of what is written: the job's, with the matrix of the codes */
     wf_output output;

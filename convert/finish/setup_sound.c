@@ -16,7 +16,7 @@ weft_status wf_setup_sound(const weft_job *job, wf_setup *s, wf_taken_list *take
 
 weft_status wf_setup_begin_sound(const wf_setup *s, weft_error *err) {
     const wf_sound_place place = {
-        .copied_s = s->sound_s, .retimed = s->retimed, .first_frame = s->first_frame};
+        .copied_s = s->sound_s, .speed = s->speed, .first_frame = s->first_frame};
     return s->sound ? wf_sound_begin(s->sound, &place, err) : WEFT_OK;
 }
 

@@ -14,14 +14,21 @@ typedef struct wf_sound_info {
     double length_s; /* 0: not known before the end */
 } wf_sound_info;
 
+/* Where reading begins: so many samples, as they are given out, after start_s of the file,
+ * either of which may be negative; and how fast the file is played, 1 being as it was recorded.
+ */
+typedef struct wf_sound_start {
+    wf_rational start_s, speed;
+    int64_t samples;
+} wf_sound_start;
+
 typedef struct wf_sound_reader {
     /* beside_video: its time 0 is when the file's video shows its first picture, else when its
      * sound begins. A file without sound has no channels, which is no error. */
     weft_status (*open)(const char *path, bool beside_video, void **state, wf_sound_info *info,
                         weft_error *err);
-    /* Where reading begins: so many samples after start_s, either of which may be negative.
-     * Once, before the first read. */
-    weft_status (*begin)(void *state, wf_rational start_s, int64_t samples, weft_error *err);
+    /* Once, before the first read. */
+    weft_status (*begin)(void *state, const wf_sound_start *start, weft_error *err);
     /* Fills to[count][channels] with the next samples, of 32 bits; before the sound begins, in
      * its gaps and after the end of a stream they are 0. *got is less than count only at the
      * end of all streams, and what is beyond it is 0. Damage is an error that says when. */

@@ -3,6 +3,7 @@
 
 #include "convert/program/info_facts.h"
 #include "convert/read/rate.h"
+#include "convert/sound/sound.h"
 #include "convert/video/meaning.h"
 #include "convert/video/rate.h"
 
@@ -43,7 +44,9 @@ weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err) {
     wf_video *video = NULL;
     weft_status status = wf_video_open(path, &options, &video, err);
     if (status) return status;
+    char sound[WF_SOUND_TEXT];
     tell_video(wf_video_info_of(video), facts);
+    if (*wf_sound_in(path, sound)) wf_fact_text(facts, "sound", sound);
     status = wf_info_meaning(video, path, facts, err);
     wf_video_close(video);
     return status;

@@ -246,18 +246,20 @@ static weft_status make_edges(const wf_run *run, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
-/* When the selection begins, on the clock of the file, which its sound keeps to. */
+/* When the selection begins on the clock of the file, which its sound keeps to, and how fast
+ * its pictures are shown, `rate` units a second. */
 static void settle_sound(wf_run *run, wf_rational rate) {
     const video_source *s = run->source;
     const wf_video_info *info = &s->info;
-    int64_t first = s->picture;
-    run->setup.retimed =
-        !s->keeps_rate && !wf_ratio_equal(wf_ratio_mul(rate, wf_ratio(s->step, 1)), info->rate);
-    if (s->times_s)
-        run->setup.sound_s =
-            wf_ratio_mul(wf_ratio(info->times[first] - info->times[0], 1), info->tick_s);
-    else
-        run->setup.sound_s = wf_ratio_div(wf_ratio(first, s->step), rate);
+    wf_rational own =
+        s->keeps_rate ? s->stated : wf_ratio_div(info->rate, wf_ratio(s->step, 1));
+    if (s->times_s) {
+        int64_t ticks = info->times[s->picture] - info->times[0];
+        run->setup.sound_s = wf_ratio_mul(wf_ratio(ticks, 1), info->tick_s);
+    } else if (wf_ratio_given(own) && own.num > 0) {
+        run->setup.sound_s = wf_ratio_div(wf_ratio(s->picture, s->step), own);
+        run->setup.speed = wf_ratio_div(rate, own);
+    }
 }
 
 static double mean_rate(const video_source *s, wf_rational rate) {

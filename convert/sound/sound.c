@@ -24,6 +24,7 @@ struct wf_sound {
     int32_t *block; /* [room][channels] */
     int64_t room;
     double from_s;  /* on the file's clock */
+    double speed;   /* that it is played at, 1 being its own */
     int64_t first;  /* of the run's samples, counted from frame 0 */
     int64_t given;  /* samples of a track */
     int64_t padded; /* of these, after the end of the file */
@@ -150,21 +151,41 @@ weft_status wf_sound_open(const weft_job *job, const wf_delivery *delivery, wf_s
     return WEFT_OK;
 }
 
+static void put_channels(const wf_sound_info *info, char *text, size_t size) {
+    snprintf(text, size, "%d channel%s (%.48s)", info->channels, info->channels > 1 ? "s" : "",
+             info->format);
+}
+
+static const char *name_of(const wf_sound *s) {
+    const char *slash = strrchr(s->path, '/');
+    if (s->audio.kind == WF_AUDIO_COPY) return "copy";
+    return slash ? slash + 1 : s->path;
+}
+
 const char *wf_sound_text(const wf_sound *s, char text[WF_SOUND_TEXT]) {
-    char from[88];
-    const char *slash = s->path ? strrchr(s->path, '/') : NULL;
+    char channels[72], from[100];
+    put_channels(&s->info, channels, sizeof channels);
     if (s->audio.kind == WF_AUDIO_SILENT)
         snprintf(from, sizeof from, "silence");
     else if (s->audio.kind == WF_AUDIO_TONE)
         snprintf(from, sizeof from, "%d Hz at %d dBFS", WF_TONE_HZ, WF_TONE_DBFS);
     else
-        snprintf(from, sizeof from, "%.24s: %d channel%s (%.48s)",
-                 s->audio.kind == WF_AUDIO_COPY ? "copy"
-                 : slash                        ? slash + 1
-                                                : s->path,
-                 s->channels, s->channels > 1 ? "s" : "", s->info.format);
+        snprintf(from, sizeof from, "%.24s: %s", name_of(s), channels);
     snprintf(text, WF_SOUND_TEXT, "%s; %d track%s of %d bits", from, s->tracks,
              s->tracks > 1 ? "s" : "", s->bits);
+    return text;
+}
+
+const char *wf_sound_in(const char *path, char text[WF_SOUND_TEXT]) {
+    wf_sound s = {.path = (char *)path};
+    *text = '\0';
+    if (find_reader(&s, NULL) || s.reader->open(path, true, &s.state, &s.info, NULL))
+        return text;
+    s.reader->close(s.state);
+    if (s.info.channels)
+        put_channels(&s.info, text, WF_SOUND_TEXT);
+    else
+        snprintf(text, WF_SOUND_TEXT, "none");
     return text;
 }
 
@@ -215,19 +236,32 @@ wf_sound_feed wf_sound_feed_of(wf_sound *s) {
 
 /* ---- Beginning and end ---- */
 
-static weft_status refuse_retimed(const wf_sound *s, weft_error *err) {
-    return wf_fail(
-        err, WEFT_USAGE,
-        "%.500s: --subframe-rate shows its pictures at another speed than its sound has; "
-        "leave it out, or " INSTEAD,
-        s->path);
+/* A picture's speed that is not quite the sound's may be one rate written in two ways. */
+#define SAME_SPEED 2e-6
+
+/* Sound that is copied goes with its pictures. */
+static weft_status find_speed(const wf_sound *s, const wf_sound_place *place,
+                              wf_rational *speed, weft_error *err) {
+    double value = wf_ratio_given(place->speed) ? wf_ratio_value(place->speed) : 1;
+    bool copied = s->audio.kind == WF_AUDIO_COPY;
+    *speed = wf_ratio(1, 1);
+    if (!copied || (value > 1 - SAME_SPEED && value < 1 + SAME_SPEED)) return WEFT_OK;
+    if (value < 0.5 || value > 2)
+        return wf_fail(err, WEFT_USAGE,
+                       "%.500s: its pictures are shown at %.6g times their speed, which is too "
+                       "much for its sound; leave out --subframe-rate, or " INSTEAD,
+                       s->path, value);
+    wf_job_warn(s->job,
+                "%s: its sound is resampled to %.6g times its speed, that of the pictures",
+                s->path, value);
+    *speed = place->speed;
+    return WEFT_OK;
 }
 
 static weft_status find_start(const wf_sound *s, const wf_sound_place *place,
                               wf_rational *start_s, weft_error *err) {
     bool copied = s->audio.kind == WF_AUDIO_COPY;
     *start_s = wf_ratio(0, 1);
-    if (copied && place->retimed) return refuse_retimed(s, err);
     if (copied && wf_ratio_given(place->copied_s)) *start_s = place->copied_s;
     if (!s->audio.offset ||
         wf_audio_offset(s->audio.offset, s->job->raster.frame_rate, start_s))
@@ -240,18 +274,21 @@ static weft_status find_start(const wf_sound *s, const wf_sound_place *place,
 }
 
 weft_status wf_sound_begin(wf_sound *s, const wf_sound_place *place, weft_error *err) {
-    wf_rational start_s;
-    s->first = wf_sound_samples(s->job->raster.frame_rate, place->first_frame);
+    wf_sound_start start = {
+        .samples = wf_sound_samples(s->job->raster.frame_rate, place->first_frame)};
+    s->first = start.samples;
     if (!s->reader) return WEFT_OK;
-    weft_status status = find_start(s, place, &start_s, err);
+    weft_status status = find_start(s, place, &start.start_s, err);
+    if (!status) status = find_speed(s, place, &start.speed, err);
     if (status) return status;
-    s->from_s = wf_ratio_value(start_s) + (double)s->first / WF_SOUND_RATE;
+    s->speed = wf_ratio_value(start.speed);
+    s->from_s = wf_ratio_value(start.start_s) + (double)s->first / WF_SOUND_RATE * s->speed;
     if (s->audio.kind == WF_AUDIO_FILE && s->info.length_s > 0 && s->from_s >= s->info.length_s)
         return wf_fail(
             err, WEFT_USAGE,
             "--audio: %.500s is %.3f s long, and its sound from %.3f s on is asked for",
             s->path, s->info.length_s, s->from_s);
-    return s->reader->begin(s->state, start_s, s->first, err);
+    return s->reader->begin(s->state, &start, err);
 }
 
 /* Frames that are asked for by number are a part of the sound, and it goes on after them. */
@@ -262,7 +299,7 @@ static bool is_part(const wf_sound *s) {
 void wf_sound_tell(wf_sound *s) {
     if (!s->reader) return;
     const char *note = s->reader->note(s->state);
-    double end_s = s->from_s + (double)s->given / WF_SOUND_RATE;
+    double end_s = s->from_s + (double)s->given / WF_SOUND_RATE * s->speed;
     double after_s = s->info.length_s - end_s;
     double least_s = s->audio.kind == WF_AUDIO_COPY
                          ? 1 / wf_ratio_value(s->job->raster.frame_rate)

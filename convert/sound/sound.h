@@ -13,16 +13,20 @@ typedef struct wf_sound wf_sound;
 weft_status wf_sound_open(const weft_job *job, const wf_delivery *delivery, wf_sound **out,
                           weft_error *err);
 
+/* What sound a file holds, for people: "2 channels (pcm_s24le, 48000 Hz, 1 stream)" or "none";
+ * "" where that cannot be found out. Returns text. */
+#define WF_SOUND_TEXT 128
+const char *wf_sound_in(const char *path, char text[WF_SOUND_TEXT]);
+
 /* What a sink is told of it; it borrows the sound. */
 wf_sound_feed wf_sound_feed_of(wf_sound *sound);
 
 /* What it was taken for, for people. Returns text. */
-#define WF_SOUND_TEXT 128
 const char *wf_sound_text(const wf_sound *sound, char text[WF_SOUND_TEXT]);
 
 typedef struct wf_sound_place {
     wf_rational copied_s; /* when frame 0 begins on the clock of the input's sound; {0, 0}: 0 */
-    bool retimed;         /* pictures are not shown at the speed of that sound */
+    wf_rational speed;    /* of its pictures as they are shown, 1 being its own; {0, 0}: 1 */
     int64_t first_frame;  /* of this run */
 } wf_sound_place;
 

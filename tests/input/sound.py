@@ -5,6 +5,7 @@ tracks FILE WAV START COUNT BITS [TRACKS]       all tracks of FILE, in order, ar
                                                 sample START on; what WAV does not have is 0
 probe FILE TRACKS CHANNELS BITS SECONDS         ffprobe says so of every track
 tone FILE TRACKS BITS SAMPLES START             1 kHz whose peak is 18 dB below full scale, from sample START
+gap FILE WAV                                    the first track is WAV's, but for a quarter of a second of silence
 sine FILE HZ                                    the first track is a sine that begins at time 0
 """
 import json, math, random, struct, subprocess, sys
@@ -101,10 +102,17 @@ def tone(name, tracks, bits, samples, start):
         sys.exit("%s: %d tracks of %d samples: it is another tone" % (name, len(got), len(got[0])))
 
 
+def gap(name, wav):
+    track, right = read_tracks(name)[0], read_wav(wav)[0]
+    silent = [i for i, value in enumerate(track) if value != right[i]]
+    if any(track[i] for i in silent) or not 11000 < len(silent) < 13500 or silent[-1] - silent[0] > len(silent) + 2:
+        sys.exit("%s: %d samples are others, from %s on" % (name, len(silent), silent[:1]))
+
+
 def sine(name, hz):
     """The sine of hz that begins with the file, whatever rate it came from, but for its edges."""
-    track = read_tracks(name)[0]
-    worst = max(abs(track[n] / 2**31 - .5 * math.sin(2 * math.pi * float(hz) * n / 48000))
+    track, hz = read_tracks(name)[0], eval(hz)
+    worst = max(abs(track[n] / 2**31 - .5 * math.sin(2 * math.pi * hz * n / 48000))
                 for n in range(200, len(track) - 200))
     if worst > 2e-5:
         sys.exit("%s: it is off by %.2g of full scale" % (name, worst))
@@ -114,4 +122,4 @@ verb, rest = sys.argv[1], sys.argv[2:]
 if verb == "wav":
     write_wav(rest[0], *(int(x) for x in rest[1:]))
 else:
-    {"tracks": same_tracks, "probe": probe, "tone": tone, "sine": sine}[verb](*rest)
+    {"tracks": same_tracks, "probe": probe, "tone": tone, "sine": sine, "gap": gap}[verb](*rest)

@@ -57,6 +57,11 @@ if has_libav; then
     done <<<'v210.mov v210
 prores.mov prores
 ffv1.mkv ffv1'
+    python3 "$WEFT_SOURCE/tests/input/sound.py" wav noise.wav 44100 16 3 4000
+    check "sound of a file" exits 0 weft render "$WEFT_SOURCE/examples/scenes/still.lua" --raster 64x48@25p --samples 1 \
+        --frames 0-2 -q --audio noise.wav:0.01 --audio-tracks 4 -o sound.mov
+    check "sound of a video" exits 0 weft convert sound.mov --raster 64x48@29.97p -q --audio copy --audio-bits 16 -o sound.mkv
+    check "a tone" exits 0 weft convert sound.mov --raster 64x48@25p --codec uyvy -q --audio tone:3 --audio-bits 16 -o sound.mxf
 fi
 check "composite" exits 0 weft composite sd.y4m -o seen.y4m --encoder filtered --decoder comb3
 check "difference" exits 0 weft measure seen.y4m --against sd.y4m --heatmap heat.png

@@ -114,7 +114,7 @@ static void describe(const hearing *h, wf_sound_info *info) {
     for (int i = 0; i < h->count; i++) {
         int bits = bits_of(h->streams[i].stream->codecpar);
         if (bits > info->bits) info->bits = bits;
-        info->resampled |= h->streams[i].resampler != NULL;
+        info->resampled |= h->streams[i].rate != WF_SOUND_RATE;
     }
     if (!h->count) return;
     snprintf(info->format, sizeof info->format, "%.24s, %d Hz, %d %s",
@@ -170,13 +170,14 @@ static bool can_seek(const hearing *h) {
 }
 
 /* Decoders are given a second to find their feet. */
-static weft_status hear_begin(void *state, wf_rational start_s, int64_t samples,
-                              weft_error *err) {
+static weft_status hear_begin(void *state, const wf_sound_start *start, weft_error *err) {
     hearing *h = state;
-    double at_s = wf_ratio_value(start_s) + (double)samples / WF_SOUND_RATE;
-    for (int i = 0; i < h->count; i++)
-        h->streams[i].start = llround(wf_ratio_value(start_s) * WF_SOUND_RATE) + samples;
-    if (!h->count || at_s < WORTH_SEEKING_S || !can_seek(h)) return WEFT_OK;
+    weft_status status = WEFT_OK;
+    double at_s = wf_ratio_value(start->start_s) +
+                  (double)start->samples / WF_SOUND_RATE * wf_ratio_value(start->speed);
+    for (int i = 0; !status && i < h->count; i++)
+        status = wf_sound_stream_begin(&h->streams[i], start, err);
+    if (status || !h->count || at_s < WORTH_SEEKING_S || !can_seek(h)) return status;
     const AVStream *first = h->streams[0].stream;
     double to_s = at_s - 1 + h->streams[0].zero_s;
     int code = av_seek_frame(h->format, first->index,

@@ -38,11 +38,12 @@ double wf_sound_stream_time_s(const wf_sound_stream *s) {
 
 /* ---- Opening ---- */
 
-/* Sums in double precision: of 24 bits nothing is lost. */
-static weft_status open_resampler(wf_sound_stream *s, weft_error *err) {
+/* Sums in double precision: of 24 bits nothing is lost. Rates may be any numbers whose ratio is
+ * right. */
+static weft_status open_resampler(wf_sound_stream *s, wf_rational ratio, weft_error *err) {
     AVChannelLayout any = {.order = AV_CHANNEL_ORDER_UNSPEC, .nb_channels = s->channels};
-    int code = swr_alloc_set_opts2(&s->resampler, &any, AV_SAMPLE_FMT_S32, WF_SOUND_RATE, &any,
-                                   AV_SAMPLE_FMT_S32, s->rate, 0, NULL);
+    int code = swr_alloc_set_opts2(&s->resampler, &any, AV_SAMPLE_FMT_S32, (int)ratio.den, &any,
+                                   AV_SAMPLE_FMT_S32, (int)ratio.num, 0, NULL);
     if (code >= 0)
         code =
             av_opt_set_sample_fmt(s->resampler, "internal_sample_fmt", AV_SAMPLE_FMT_DBLP, 0);
@@ -81,9 +82,17 @@ weft_status wf_sound_stream_open(wf_sound_stream *s, const char *path, const AVS
             "%.700s: its sound has %d channels of %d samples a second, which cannot be "
             "read; write it as WAV of 48 kHz",
             path, s->channels, s->rate);
-    weft_status status = open_codec(s, err);
-    if (!status && s->rate != WF_SOUND_RATE) status = open_resampler(s, err);
-    return status;
+    return open_codec(s, err);
+}
+
+weft_status wf_sound_stream_begin(wf_sound_stream *s, const wf_sound_start *start,
+                                  weft_error *err) {
+    wf_rational ratio = wf_ratio_mul(wf_ratio(s->rate, WF_SOUND_RATE), start->speed);
+    s->start = *start;
+    if (ratio.num == ratio.den) return WEFT_OK;
+    if (!wf_ratio_given(ratio) || ratio.num > INT32_MAX / 2 || ratio.den > INT32_MAX / 2)
+        return damaged(s, "cannot be resampled", AVERROR(ERANGE), err);
+    return open_resampler(s, ratio, err);
 }
 
 /* ---- The queue ---- */
@@ -143,8 +152,10 @@ void wf_sound_stream_take(wf_sound_stream *s, int32_t *to, int stride, int64_t c
 
 /* The first sample's place: what comes before the place where reading begins is skipped. */
 static void place_first(wf_sound_stream *s, int64_t pts) {
-    double at_s = (double)pts * av_q2d(s->stream->time_base) - s->zero_s;
-    int64_t at = llround(at_s * WF_SOUND_RATE) - s->start;
+    double at_s = (double)pts * av_q2d(s->stream->time_base) - s->zero_s -
+                  wf_ratio_value(s->start.start_s);
+    double shown_s = at_s / wf_ratio_value(s->start.speed);
+    int64_t at = llround(shown_s * WF_SOUND_RATE) - s->start.samples;
     s->begun = true;
     s->first_pts = pts;
     s->lead = at > 0 ? at : 0;

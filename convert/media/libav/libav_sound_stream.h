@@ -5,7 +5,7 @@
 #include <libavformat/avformat.h>
 #include <libswresample/swresample.h>
 
-#include "convert/base/fail.h"
+#include "convert/media/sound_reader.h"
 
 /* One stream of sound: packets in, a queue of samples at WF_SOUND_RATE out, each at its place
  * in time. */
@@ -14,7 +14,7 @@ typedef struct wf_sound_stream {
     const AVStream *stream;
     AVCodecContext *codec;
     AVFrame *frame;
-    SwrContext *resampler; /* NULL: it has that rate */
+    SwrContext *resampler; /* NULL: it has that rate, and is played as it was recorded */
     int channels, rate;
     double zero_s; /* what is time 0 on the stream's clock */
 
@@ -22,7 +22,7 @@ typedef struct wf_sound_stream {
     int64_t first_pts; /* when, in ticks of the stream */
     int64_t counted;   /* samples at its own rate since then, with those put into gaps */
     int64_t surplus;   /* of these, to be left out: they would overlap what there is */
-    int64_t start;     /* where reading begins, in samples of the queue from time 0 */
+    wf_sound_start start;
 
     int64_t lead;   /* silent samples that come before those of the queue */
     int64_t skip;   /* samples that come before the place where reading begins */
@@ -37,6 +37,10 @@ typedef struct wf_sound_stream {
 
 weft_status wf_sound_stream_open(wf_sound_stream *s, const char *path, const AVStream *stream,
                                  weft_error *err);
+
+/* Says where reading begins; before the first packet. */
+weft_status wf_sound_stream_begin(wf_sound_stream *s, const wf_sound_start *start,
+                                  weft_error *err);
 
 /* Decodes a packet, or with NULL what is left at the end. */
 weft_status wf_sound_stream_feed(wf_sound_stream *s, const AVPacket *packet, weft_error *err);
