@@ -150,6 +150,8 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "--view needs the display it belongs to; give --display too"},
         {job->look && !job->to && !job->display,
          "--look needs to know what it leads to; give --to, or --display and --view"},
+        {job->audio_tracks && !job->audio,
+         "--audio-tracks is for sound; give --audio too, such as silent:2"},
         {job->overwrite && job->resume, "--overwrite makes everything again and --resume only "
                                         "what is not there; give one of them"},
         {job->resume && job->output && !strcmp(job->output, "-"),

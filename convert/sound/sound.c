@@ -42,8 +42,7 @@ static weft_status find_video(wf_sound *s, weft_error *err) {
     if (job->command != WF_CONVERT)
         return wf_fail(err, WEFT_USAGE, "--audio copy: a scene has no sound; " INSTEAD);
     if (!wf_video_is(input))
-        return wf_fail(err, WEFT_USAGE,
-                       "--audio copy: %.500s is no video, and has no sound; " INSTEAD, input);
+        return wf_fail(err, WEFT_USAGE, "--audio copy: %.500s has no sound; " INSTEAD, input);
     if (!strcmp(input, "-") || (!stat(input, &about) && !S_ISREG(about.st_mode)))
         return wf_fail(
             err, WEFT_USAGE,

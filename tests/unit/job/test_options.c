@@ -288,6 +288,7 @@ static void contradictions(void **state) {
         {{"look=l"}, "a.y4m", "--look"},
         {{"overwrite", "resume"}, "a.y4m", "--resume"},
         {{"resume"}, "-", "standard output"},
+        {{"audio-tracks=4"}, "a.mov", "--audio"},
         {{"timecode=00:01:00;00"}, "a.y4m", "--timecode"},
         {{"timecode=00:00:00:30"}, "a.y4m", "--timecode"},
         {{"timecode=00:00:00:25", "raster=625i"}, "a.y4m", "--timecode"},
