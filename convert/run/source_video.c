@@ -98,11 +98,18 @@ static void tell_alpha(const wf_run *run) {
             s->path);
 }
 
-/* --from counts whatever the stream says; it is looked up when the output is settled. */
+/* What a tag of H.273 is that says nothing. */
+enum { UNSAID = 2 };
+
+/* --from counts whatever the stream says, and settles the matrix where that is not said; it is
+ * looked up when the output is settled. */
 static weft_status find_meaning(wf_run *run, weft_error *err) {
     video_source *s = run->source;
+    bool said = s->info.tags.matrix != UNSAID || !run->job->from;
+    if (!said) s->info.tags.matrix = wf_matrix_of_space(run->job->from);
     weft_status status = wf_meaning_of(&s->info, s->path, &s->meaning, err);
     if (status) return status;
+    s->meaning.matrix_asked = !said && s->info.tags.matrix != UNSAID;
     wf_meaning_take(&s->meaning, &s->info, &run->report->taken);
     run->setup.decodes = true;
     tell_alpha(run);

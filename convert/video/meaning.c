@@ -2,6 +2,7 @@
 #include "convert/video/meaning.h"
 
 #include <stdio.h>
+#include <strings.h>
 
 enum { UNSAID = 2 };
 
@@ -53,6 +54,17 @@ static void fill_in(wf_meaning *m, const wf_video_info *info) {
     m->full_range = info->full_range;
 }
 
+int wf_matrix_of_space(const char *space) {
+    static const struct {
+        const char *space;
+        int code_point;
+    } rows[] = {{"rec709", 1},  {"rec601-525", 6}, {"rec601-625", 5},
+                {"rec2020", 9}, {"rec2100-pq", 9}, {"rec2100-hlg", 9}};
+    for (size_t i = 0; i < COUNT(rows); i++)
+        if (!strcasecmp(space, rows[i].space)) return rows[i].code_point;
+    return UNSAID;
+}
+
 /* ---- All of it ---- */
 
 static const char *find_matrix(wf_meaning *m) {
@@ -95,7 +107,10 @@ void wf_meaning_take(const wf_meaning *m, const wf_video_info *info, wf_taken_li
     wf_meaning found = *m;
     bool matrix_said = m->matrix && m->matrix == info->tags.matrix;
     wf_file_colors_take(&m->colors, list);
-    wf_take(list, "matrix", find_matrix(&found), matrix_said || !m->ycbcr ? "file" : "default");
+    wf_take(list, "matrix", find_matrix(&found),
+            m->matrix_asked            ? "option"
+            : matrix_said || !m->ycbcr ? "file"
+                                       : "default");
     wf_take(list, "range", m->full_range ? "full" : "narrow",
             info->tags.range_said ? "file" : "default");
 }

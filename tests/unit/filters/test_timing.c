@@ -156,27 +156,36 @@ static void frames_of_a_sequence(void **state) {
         wf_rational rate, width, skew;
         bool center;
         int64_t subframes, frames;
+        wf_position position;
     } cases[] = {
-        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 128, 8},
-        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 124, 8}, /* 15.5 fields */
-        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 123, 7},
-        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 126, 8}, /* the last line 15.75 - */
-        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 125, 7},
-        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 121, 8}, /* 15.125, and the instant 15
-                                                                  */
-        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 120, 7},
-        {"525i", {480000, 1001}, {0, 1}, {0, 1}, true, 120, 7},
-        {"525i", {480000, 1001}, {1, 1}, {0, 1}, false, 128, 8},
-        {"525i", {480000, 1001}, {1, 1}, {0, 1}, true, 128, 8}, /* the time that it is shown */
-        {"525i", {480000, 1001}, {2, 1}, {0, 1}, false, 128, 8},
-        {"525i", {480000, 1001}, {1, 2}, {0, 1}, true, 124, 7}, /* its cells end at 15.4375 */
-        {"1080i50", {200, 1}, {1, 2}, {0, 1}, false, 128, 16},
-        {"1080i50", {200, 1}, {1, 4}, {0, 1}, false, 5, 1},
-        {"720p60", {24, 1}, {1, 2}, {0, 1}, false, 24, 60},
-        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 11, 0},
-        {"1080psf23.976", {24000, 1001}, {1, 2}, {0, 1}, false, 100000, 100000},
-        {"1080psf25", {200, 1}, {1, 2}, {0, 1}, false, 12, 2}, /* 1.5 frames, one instant each
-                                                                */
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 128, 8, WF_START},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 124, 8, WF_START}, /* 15.5 fields */
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 123, 7, WF_START},
+        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 126, 8, WF_START}, /* the last
+                                                                              line 15.75 - */
+        {"525i", {480000, 1001}, {1, 2}, {1, 4}, false, 125, 7, WF_START},
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 121, 8, WF_START}, /* 15.125, and the
+                                                                            * instant 15
+                                                                            */
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, false, 120, 7, WF_START},
+        {"525i", {480000, 1001}, {0, 1}, {0, 1}, true, 120, 7, WF_START},
+        {"525i", {480000, 1001}, {1, 1}, {0, 1}, false, 128, 8, WF_START},
+        {"525i", {480000, 1001}, {1, 1}, {0, 1}, true, 128, 8, WF_START}, /* the time that it is
+                                                                             shown */
+        {"525i", {480000, 1001}, {2, 1}, {0, 1}, false, 128, 8, WF_START},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, true, 124, 7, WF_START}, /* its cells end
+                                                                             at 15.4375 */
+        {"1080i50", {200, 1}, {1, 2}, {0, 1}, false, 128, 16, WF_START},
+        {"1080i50", {200, 1}, {1, 4}, {0, 1}, false, 5, 1, WF_START},
+        {"720p60", {24, 1}, {1, 2}, {0, 1}, false, 24, 60, WF_START},
+        {"525i", {480000, 1001}, {1, 2}, {0, 1}, false, 11, 0, WF_START},
+        {"1080psf23.976", {24000, 1001}, {1, 2}, {0, 1}, false, 100000, 100000, WF_START},
+        {"1080psf25", {200, 1}, {1, 2}, {0, 1}, false, 12, 2, WF_START}, /* 1.5 frames, one
+                                                                          * instant each
+                                                                          */
+        /* The window of frame 4 ends by then, and its instant is not before. */
+        {"720p50", {50, 1}, {1, 1}, {0, 1}, false, 4, 4, WF_END},
+        {"720p50", {200, 1}, {1, 1}, {0, 1}, false, 17, 5, WF_END},
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         wf_raster raster = raster_of(cases[n].raster);
@@ -185,6 +194,7 @@ static void frames_of_a_sequence(void **state) {
                                .subframes = cases[n].subframes,
                                .subframe_center = cases[n].center,
                                .width = cases[n].width,
+                               .position = cases[n].position,
                                .skew = cases[n].skew};
         int64_t frames = wf_timing_frames(&desc);
         if (frames != cases[n].frames) fail_msg("case %zu: %lld frames", n, (long long)frames);

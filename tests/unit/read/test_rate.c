@@ -176,6 +176,22 @@ static void absurd_rates_are_refused(void **state) {
     assert_int_equal(wf_rate_of_files("shot", &info, &fine, &rate, &err), WEFT_FAILED);
 }
 
+static void the_last_rates_that_can_be(void **state) {
+    (void)state;
+    const struct {
+        wf_rational rate;
+        weft_status status;
+    } cases[] = {{{1, 1000}, WEFT_OK},
+                 {{1, 1001}, WEFT_FAILED},
+                 {{1000000, 1}, WEFT_OK},
+                 {{1000001, 1}, WEFT_FAILED}};
+    for (size_t i = 0; i < LENGTH(cases); i++) {
+        const wf_image_info info = {.rate = cases[i].rate};
+        wf_rational rate;
+        assert_int_equal(wf_rate_of_files("shot", &info, &plain, &rate, NULL), cases[i].status);
+    }
+}
+
 /* ---- Steps ---- */
 
 static void rates_are_divided_by_steps(void **state) {
@@ -203,6 +219,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rates_of_every_type),
         cmocka_unit_test(absurd_rates_are_refused),
+        cmocka_unit_test(the_last_rates_that_can_be),
         cmocka_unit_test(rates_are_divided_by_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -165,6 +165,31 @@ static void even_times(void **state) {
                 "subframe 5 is missing");
 }
 
+/* One picture that is late is enough for times of their own: the second, or the last but one.
+ */
+static void one_late_picture(void **state) {
+    (void)state;
+    char report[JOB_REPORT];
+    for (int late = 1; late < 16; late += 13) {
+        job_clean();
+        for (int k = 0; k < 16; k++)
+            write_timed(k, k == late ? 1 : 0, 10 * k + (k == late ? 4 : 0), 2000);
+        job_done(RASTER "temporal-width=1", "out.####.exr", report);
+        assert_non_null(strstr(report, "\"irregular\""));
+        if (late == 1) check_level(0, 0.15); /* 6/10 of a quarter of a field */
+    }
+}
+
+/* Where half of the numbers are there, the others are missing, and times tell which. */
+static void half_of_the_numbers(void **state) {
+    (void)state;
+    job_clean();
+    for (int k = 0; k < 8; k++)
+        if (k == 0 || k == 3 || k == 5 || k == 7) write_timed(k, 0.5f, k, 200);
+    job_refused(RASTER "temporal-width=1", "out.####.exr", WEFT_FAILED,
+                "subframe 1 is missing");
+}
+
 static void times_that_will_not_do(void **state) {
     (void)state;
     job_clean();
@@ -230,6 +255,8 @@ int main(void) {
         cmocka_unit_test(three_tenths_of_each_field),
         cmocka_unit_test(random_times),
         cmocka_unit_test(even_times),
+        cmocka_unit_test(one_late_picture),
+        cmocka_unit_test(half_of_the_numbers),
         cmocka_unit_test(times_that_will_not_do),
         cmocka_unit_test(what_no_window_needs),
         cmocka_unit_test(output_frames),
