@@ -132,6 +132,18 @@ static weft_status check_edge(const wf_arrivals *a, int64_t i, weft_error *err) 
                    a->desc.path, a->from + i);
 }
 
+static weft_status check_length(const wf_arrivals *a, int64_t since, weft_error *err) {
+    double tick_s = wf_ratio_value(a->desc.tick_s);
+    double before_s = (double)a->ticks[a->count - 1 - a->from] * tick_s;
+    double lasts_s = (double)since * tick_s - before_s;
+    if (lasts_s <= WF_LONGEST_SHOWN_S) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: picture %" PRId64
+                   ", at %.3f s, would be shown for %.0f s: a timestamp is "
+                   "damaged; give --subframe-rate to take all pictures as equally long",
+                   a->desc.path, a->count - 1, before_s, lasts_s);
+}
+
 weft_status wf_arrivals_add(wf_arrivals *a, int64_t ticks, int64_t lasts, weft_error *err) {
     weft_status status = make_place(a, err);
     if (status) return status;
@@ -140,6 +152,8 @@ weft_status wf_arrivals_add(wf_arrivals *a, int64_t ticks, int64_t lasts, weft_e
     bool keeps = a->uneven || in_step(a, number, since);
     if ((a->uneven || !keeps) && i && since <= a->ticks[i - 1])
         return refuse_order(a, since, err);
+    if (i) status = check_length(a, since, err);
+    if (status) return status;
     a->ticks[i] = since;
     a->last_lasts = lasts;
     if (!keeps) turn_uneven(a);

@@ -85,19 +85,34 @@ static weft_status refuse_back(const wf_video_info *info, const char *path, weft
         path, info->back, rate > 0 ? (double)info->back / rate : 0);
 }
 
+static weft_status check_length(const wf_video_info *info, const char *path, int64_t k,
+                                weft_error *err) {
+    double tick_s = wf_ratio_value(info->tick_s);
+    double lasts_s = (double)(info->times[k] - info->times[k - 1]) * tick_s;
+    if (lasts_s <= WF_LONGEST_SHOWN_S) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: picture %" PRId64 ", at %.3f s, would be shown for %.0f s: a timestamp is "
+        "damaged; give --subframe-rate to take all pictures as equally long",
+        path, k - 1, (double)(info->times[k - 1] - info->times[0]) * tick_s, lasts_s);
+}
+
 static weft_status check_order(const wf_video_info *info, const char *path, weft_error *err) {
     if (info->back) return refuse_back(info, path, err);
-    for (int64_t k = 1; k < info->frames; k++) {
+    weft_status status = WEFT_OK;
+    for (int64_t k = 1; !status && k < info->frames; k++) {
         double at_s = (double)(info->times[k] - info->times[0]) * wf_ratio_value(info->tick_s);
-        if (info->times[k] > info->times[k - 1]) continue;
-        return wf_fail(err, WEFT_FAILED,
-                       "%s: pictures %" PRId64 " and %" PRId64
-                       " are both shown at %.3f s; write its timestamps again, such as with "
-                       "ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give --subframe-rate to "
-                       "take all pictures as equally long",
-                       path, k - 1, k, at_s);
+        if (info->times[k] <= info->times[k - 1])
+            return wf_fail(
+                err, WEFT_FAILED,
+                "%s: pictures %" PRId64 " and %" PRId64
+                " are both shown at %.3f s; write its timestamps again, such as with "
+                "ffmpeg -i IN -vf fps=120 -c:v ffv1 OUT.mkv, or give --subframe-rate "
+                "to take all pictures as equally long",
+                path, k - 1, k, at_s);
+        status = check_length(info, path, k, err);
     }
-    return WEFT_OK;
+    return status;
 }
 
 /* When a picture begins, in ticks; those beyond the last are as far apart as the last lasts. */

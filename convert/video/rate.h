@@ -11,6 +11,9 @@
 weft_status wf_video_rate(const wf_video_info *info, const char *path, wf_rational *rate,
                           weft_error *err);
 
+/* A picture that is shown for longer has a damaged timestamp after it. */
+#define WF_LONGEST_SHOWN_S 3600.0
+
 /* Whether a picture that is shown so many ticks after the first keeps to a rate, within a tick.
  */
 bool wf_video_in_step(const wf_video_info *info, wf_rational rate, int64_t picture,
