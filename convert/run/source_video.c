@@ -541,7 +541,9 @@ static int64_t first_seen(const wf_run *run, int64_t field) {
 /* Forgets the units that neither fields from this one on see nor later ones. */
 static void forget_before(video_source *s, int64_t unit) {
     wf_video_window_forget(s->window, s->picture + unit * s->step);
-    if (s->arrivals && unit > 0) wf_arrivals_forget(s->arrivals, unit - 1);
+    if (!s->arrivals || unit < 1) return;
+    wf_arrivals_forget(s->arrivals, unit - 1);
+    if (wf_arrivals_uneven(s->arrivals)) (void)take_edges(s, NULL); /* which have moved */
 }
 
 /* Of a pipe it reads all that these fields see, and so much that they are known to be part of a

@@ -42,6 +42,15 @@ quiet_ffmpeg -r 24 -i turns.y4m -vf "settb=1/90000,setpts=N*3750+gte(N\,50)*2700
     -enc_time_base 1:90000 -c:v libx264 -qp 0 film.ts
 check "film" refuses "irregular" convert --from rec709 <(cat film.ts) $box --raster 64x32@30000/1001i --cadence 2:3 -o no.y4m
 
+# Two pictures that are shown for nine seconds each: many fields see the same one.
+quiet_ffmpeg -i turns.y4m -vf "settb=1/1000,setpts=N*10+if(gte(N\,50)\,9000)+if(gte(N\,51)\,9000)" -fps_mode passthrough \
+    -enc_time_base 1:1000 -c:v libx264 -bf 2 -qp 0 still.mkv
+for how in "--aperture box --temporal-width 1" "--aperture rotated"; do
+    check "stills" exits 0 weft convert still.mkv $box $how -o u.y4m
+    check "by a pipe" exits 0 weft convert <(cat still.mkv) $box $how -o p.y4m
+    check "are the same ($how)" cmp u.y4m p.y4m
+done
+
 # ---- Times that will not do ----
 
 # stamped FILE EXPRESSION: timestamps, in ms, of FFV1 in Matroska by a number N, patched into packets as they are.
