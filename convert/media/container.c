@@ -1,16 +1,20 @@
-/* Completes finished MXF and QuickTime files; MXF here, QuickTime in container_mov.c. */
+/* Completes finished files: MXF here, QuickTime in container_mov.c, Matroska in
+ * container_mkv.c. */
 #include "convert/media/container.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/media/container_mkv.h"
 #include "convert/media/container_mov.h"
 #include "convert/media/klv.h"
 
 #define SET_MOST        8192 /* bytes of a descriptor that is completed; they have some hundred */
 #define DOMINANCE_BYTES 5
 #define SETS_MOST       (1 << 20)
+#define UMID_BYTES      32
 #define LONG_LENGTH     0x83 /* three bytes of length follow */
 
 /* ---- MXF: picture descriptors ---- */
@@ -49,6 +53,46 @@ static size_t put_dominance(uint8_t *set, size_t bytes, const wf_raster *r) {
     wf_put_big_endian(set + bytes + 2, 1, 2);
     set[bytes + 4] = 1;
     return DOMINANCE_BYTES;
+}
+
+/* ---- MXF: identity ---- */
+
+void wf_container_number(const uint8_t identity[16], unsigned n, uint8_t number[16]) {
+    XXH128_hash_t hash = XXH3_128bits_withSeed(identity, 16, n);
+    XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)number, hash);
+    number[6] = (uint8_t)((number[6] & 0x0f) | 0x50); /* RFC 4122: by name */
+    number[8] = (uint8_t)((number[8] & 0x3f) | 0x80);
+}
+
+/* Writes numbers into the basic UMIDs (SMPTE ST 330) of a value: libavformat's are 0 but for
+ * the last byte, which tells the packages apart. Returns whether there are any. */
+static bool put_umids(uint8_t *value, size_t bytes, const uint8_t identity[16]) {
+    static const uint8_t label[] = {6, 10, 0x2b, 0x34, 1, 1, 1, 5, 1, 1, 13, 0}, none[15];
+    bool any = false;
+    for (size_t at = 0; at + UMID_BYTES <= bytes; at++) {
+        uint8_t *number = value + at + 16;
+        if (memcmp(value + at, label, sizeof label) || memcmp(number, none, sizeof none))
+            continue;
+        wf_container_number(identity, number[15], number);
+        any = true;
+    }
+    return any;
+}
+
+/* Writes the number of a package, which its set has in its UMID, into its name, which is in
+ * UTF-16. */
+static void put_name(uint8_t *set, size_t bytes) {
+    static const char digits[] = "0123456789abcdef", name[] = WF_MXF_PACKAGE_NAME;
+    size_t length, id_length;
+    size_t at = wf_klv_item(set, bytes, WF_MXF_NAME, &length);
+    size_t id = wf_klv_item(set, bytes, WF_MXF_PACKAGE_ID, &id_length);
+    if (length < 2 * (sizeof name - 1) || id_length != UMID_BYTES) return;
+    for (size_t i = 0; i < sizeof name - 1; i++)
+        if (set[at + 2 * i] || set[at + 2 * i + 1] != name[i]) return;
+    for (size_t i = 0; i < 32; i++) {
+        uint8_t byte = set[id + 16 + i / 2];
+        set[at + 2 * (5 + i) + 1] = (uint8_t)digits[i % 2 ? byte & 15 : byte >> 4];
+    }
 }
 
 /* ---- The file ---- */
@@ -128,6 +172,18 @@ static weft_status complete_descriptor(wf_outfile *file, const wf_klv *k,
     return status ? status : put_bytes(file, k->value, set, bytes + more, err);
 }
 
+/* Packages are named by sets of the header, and by the system items of D-10. */
+static weft_status complete_identity(wf_outfile *file, const wf_klv *k,
+                                     const uint8_t identity[16], weft_error *err) {
+    uint8_t set[SET_MOST];
+    size_t bytes = (size_t)(k->next - k->value), got;
+    if (k->next - k->value > SET_MOST || wf_klv_is_fill(k->key)) return WEFT_OK;
+    weft_status status = wf_outfile_read(file, k->value, set, bytes, &got, err);
+    if (status || got < bytes || !put_umids(set, bytes, identity)) return status;
+    put_name(set, bytes);
+    return put_bytes(file, k->value, set, bytes, err);
+}
+
 static weft_status complete_mxf(wf_outfile *file, const wf_container_facts *facts,
                                 weft_error *err) {
     wf_klv k = {{0}, 0, 0};
@@ -137,6 +193,8 @@ static weft_status complete_mxf(wf_outfile *file, const wf_container_facts *fact
         int64_t at = k.next;
         status = read_head(file, at, &k, &end, err);
         if (status || end) break;
+        status = complete_identity(file, &k, facts->identity, err);
+        if (status) break;
         if (!wf_klv_is_picture(wf_klv_set_kind(k.key))) continue;
         status = complete_descriptor(file, &k, facts->raster, err);
         if (!status) status = read_head(file, at, &k, &end, err); /* it may be longer now */
@@ -147,6 +205,8 @@ static weft_status complete_mxf(wf_outfile *file, const wf_container_facts *fact
 weft_status wf_container_complete(wf_outfile *file, const wf_container_facts *facts,
                                   weft_error *err) {
     if (!strncmp(facts->muxer, "mxf", 3)) return complete_mxf(file, facts, err);
-    if (!strcmp(facts->muxer, "mov")) return wf_container_complete_mov(file, facts, err);
+    if (!strcmp(facts->muxer, "mov") || !strcmp(facts->muxer, "mp4"))
+        return wf_container_complete_mov(file, facts, err);
+    if (!strcmp(facts->muxer, "matroska")) return wf_container_complete_mkv(file, facts, err);
     return WEFT_OK;
 }

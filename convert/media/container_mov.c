@@ -8,18 +8,23 @@
 
 #include "convert/base/big_endian.h"
 
-#define MOOV_MOST       ((int64_t)1 << 30)
-#define ENTRY_BYTES     86 /* of a video's sample description before its extensions */
-#define COMPRESSOR_AT   50
-#define COMPRESSOR_MOST 31
-#define GROWTH_BYTES    256 /* that a movie grows by at most */
+#define MOOV_MOST         ((int64_t)1 << 30)
+#define ENTRY_BYTES       86 /* of a video's sample description before its extensions */
+#define SOUND_ENTRY_BYTES 36 /* of a sound's, version 0 */
+#define LAYOUT_BYTES      24
+#define COMPRESSOR_AT     50
+#define COMPRESSOR_MOST   31
+#define GROWTH_BYTES                                                                           \
+    4096 /* that a movie grows by at most, with 64 tracks of sound and more                    \
+          */
 
 typedef struct atoms {
     const uint8_t *from;
     uint8_t *to;
     size_t used; /* of to */
     const wf_container_facts *facts;
-    bool video; /* the track that is copied is one */
+    bool quicktime;    /* else it is MP4, whose descriptions libavformat has right */
+    bool video, sound; /* the track that is copied is one */
 } atoms;
 
 static bool is(const uint8_t *atom, const char *type) {
@@ -127,14 +132,39 @@ static void copy_entry(atoms *a, size_t at, size_t end) {
     wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
 }
 
+/* Tracks of one or two channels say so; libavformat says nothing of channels that it has no
+ * names for. */
+static void put_layout(atoms *a, unsigned channels) {
+    static const uint32_t tags[] = {0, 100 << 16 | 1, 101 << 16 | 2}; /* mono, stereo */
+    if (channels >= sizeof tags / sizeof *tags) return;
+    wf_put_big_endian(begin(a, "chan", LAYOUT_BYTES) + 4, tags[channels], 4);
+}
+
+/* Copies the first entry of a sound's sample description. */
+static void copy_sound_entry(atoms *a, size_t at, size_t end) {
+    const uint8_t *entry = a->from + at;
+    size_t start = a->used, bytes;
+    bool said = false, longer = wf_big_endian(entry + 16, 2) == 1;
+    for (size_t part = at + (longer ? 52 : 36);
+         part < end && (bytes = atom_bytes(a, part, end)); part += bytes)
+        said |= is(a->from + part, "chan");
+    copy(a, at, end - at);
+    if (!said) put_layout(a, (unsigned)wf_big_endian(entry + 24, 2));
+    wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
+}
+
 static void copy_descriptions(atoms *a, size_t at, size_t end) {
     size_t entry = at + 16, bytes = atom_bytes(a, entry, end);
     copy(a, at, 16);
-    if (!a->video || bytes < ENTRY_BYTES) {
+    bool fits = bytes >= (a->video ? ENTRY_BYTES : SOUND_ENTRY_BYTES);
+    if (!fits || (!a->video && !a->sound)) {
         copy(a, entry, end - entry);
         return;
     }
-    copy_entry(a, entry, entry + bytes);
+    if (a->video)
+        copy_entry(a, entry, entry + bytes);
+    else
+        copy_sound_entry(a, entry, entry + bytes);
     copy(a, entry + bytes, end - entry - bytes);
 }
 
@@ -147,9 +177,18 @@ static void put_shown(uint8_t *clef, const wf_raster *r) {
     wf_put_big_endian(clef + 16, lines << 16, 4);
 }
 
-static bool holds_video(const atoms *a, size_t at, size_t end) {
+/* Every track is enabled, in the movie and in its preview, and belongs to no group of which one
+ * track is played: libavformat enables the first track of sound alone, and groups all. */
+static void put_heard(uint8_t *tkhd, size_t bytes) {
+    size_t group = tkhd[8] == 1 ? 54 : 42; /* in version 1 three numbers have 8 bytes */
+    if (bytes < group + 2) return;
+    tkhd[11] |= 7;
+    wf_put_big_endian(tkhd + group, 0, 2);
+}
+
+static bool holds(const atoms *a, const char *type, size_t at, size_t end) {
     for (size_t bytes; (bytes = atom_bytes(a, at, end)); at += bytes)
-        if (is(a->from + at, "vmhd")) return true;
+        if (is(a->from + at, type)) return true;
     return false;
 }
 
@@ -165,17 +204,20 @@ static bool is_container(const uint8_t *atom) {
 static void copy_atom(atoms *a, size_t at, size_t end) {
     size_t start = a->used, bytes;
     const uint8_t *atom = a->from + at;
-    if (is(atom, "stsd") && end - at > 16) {
+    if (is(atom, "stsd") && end - at > 16 && a->quicktime) {
         copy_descriptions(a, at, end);
     } else if (is_container(atom)) {
-        if (is(atom, "minf")) a->video = holds_video(a, at + 8, end);
+        if (is(atom, "minf")) a->video = holds(a, "vmhd", at + 8, end);
+        if (is(atom, "minf")) a->sound = holds(a, "smhd", at + 8, end);
         copy(a, at, 8);
         for (at += 8; (bytes = atom_bytes(a, at, end)); at += bytes)
             copy_atom(a, at, at + bytes);
         copy(a, at, end - at);
     } else {
         copy(a, at, end - at);
-        if (is(atom, "clef") && end - at == 20) put_shown(a->to + start, a->facts->raster);
+        if (is(atom, "tkhd")) put_heard(a->to + start, end - at);
+        if (is(atom, "clef") && end - at == 20 && a->quicktime)
+            put_shown(a->to + start, a->facts->raster);
     }
     wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
 }
@@ -213,7 +255,8 @@ static weft_status rewrite(wf_outfile *file, const wf_container_facts *facts, in
     if (!status) status = wf_outfile_read(file, at + (int64_t)bytes, &next, 1, &beyond, err);
     if (!status && (got < bytes || beyond)) status = malformed(err);
     if (!status) {
-        atoms a = {.from = from, .to = to, .facts = facts};
+        atoms a = {
+            .from = from, .to = to, .facts = facts, .quicktime = !strcmp(facts->muxer, "mov")};
         copy_atom(&a, 0, bytes);
         status = wf_outfile_seek(file, at, err);
         if (!status) status = wf_outfile_write(file, to, a.used, err);

@@ -5,7 +5,9 @@
 #include "convert/media/container_facts.h"
 
 /* Completes a QuickTime file (QuickTime File Format): fiel, colr, pasp and clap of the video's
- * sample description, the words for its codec, and the clean aperture of tapt. */
+ * sample description, the words for its codec, and the clean aperture of tapt; of sound, that
+ * every track is heard and which channels it has. Of MP4 (muxer mp4) only that every track is
+ * heard. */
 weft_status wf_container_complete_mov(wf_outfile *file, const wf_container_facts *facts,
                                       weft_error *err);
 

@@ -41,6 +41,8 @@ enum {
     WF_MXF_ASPECT = 0x320e,       /* rational, of the picture */
     WF_MXF_DOMINANCE = 0x3212,    /* the field that is first in time: 1 or 2 */
     WF_MXF_SITING = 0x3303,       /* of chroma: 0 with the first luma sample of a pair */
+    WF_MXF_NAME = 0x4402,         /* of a package, UTF-16 */
+    WF_MXF_PACKAGE_ID = 0x4401,   /* its UMID */
     WF_MXF_START = 0x1501,
     WF_MXF_BASE = 0x1502,
     WF_MXF_DROP = 0x1503

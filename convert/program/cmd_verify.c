@@ -116,6 +116,9 @@ static weft_status verify_one(verify_state *s, const char *path, wf_json *json,
 static weft_status verify_all(verify_state *s, int count, char **paths, weft_error *err) {
     wf_json json = {0};
     weft_status worst = WEFT_OK;
+    wf_identities *all = wf_identities_read((const char *const *)paths, (size_t)count);
+    if (!all) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    s->options.others = all;
     if (s->json) wf_json_open(&json, NULL, '[');
     for (int i = 0; i < count; i++) {
         weft_error trouble = {""};
@@ -124,6 +127,7 @@ static weft_status verify_all(verify_state *s, int count, char **paths, weft_err
         if (status) wf_cmd_say("", trouble.text);
         if (status > worst) worst = status;
     }
+    wf_identities_free(all);
     if (s->json) wf_json_close(&json);
     weft_status printed = s->json ? wf_cmd_print_json(wf_json_finish(&json), err) : WEFT_OK;
     return worst ? worst : printed;

@@ -8,10 +8,11 @@
 #include "filters/raster/raster.h"
 
 /* Uncompressed 4:2:2 in MXF OP1a: SMPTE ST 377-1 (file), ST 378 (OP1a), ST 379 (generic
- * container, frame wrapped), ST 384 (picture), ST 382 (sound). Edit units are all of one size,
- * so that the whole file is known before its first frame: it is written from front to end, the
- * header is closed and complete, the index is in the footer. Equal input makes equal bytes:
- * identifiers are hashes of what is in the file, dates are "unknown". */
+ * container, frame wrapped), ST 384 (picture), ST 382 (sound). Edit units are all of one
+ * size, so that the whole file is known before its first frame: it is written from front to
+ * end, and its header again, when its identifiers are known; the header is closed and
+ * complete, the index is in the footer. Equal input makes equal bytes: identifiers are
+ * hashes of what is in the file, dates are "unknown". */
 
 typedef struct wf_mxf_options {
     const wf_raster *raster; /* borrowed; even width */

@@ -78,6 +78,14 @@ static void item_umid(const writer *w, uint16_t tag, int package) {
     wf_item_bytes(w->b, tag, umid, sizeof umid);
 }
 
+/* "weft" and the number of its UMID. */
+static void item_name(const writer *w, int package) {
+    char name[40] = "weft ";
+    wf_uid number = uid(w, PACKAGE_IDS + package);
+    for (int i = 0; i < 16; i++) snprintf(name + 5 + 2 * i, 3, "%02x", number.byte[i]);
+    wf_item_text(w->b, 0x4402, name);
+}
+
 static size_t begin_set(const writer *w, uint8_t kind, int n) {
     size_t begun =
         wf_klv_begin(w->b, (wf_ul)WF_UL_SET(0x0d01010101010000 | (uint64_t)kind << 8));
@@ -212,6 +220,7 @@ static void put_track(const writer *w, int package, int track) {
 static void put_package(const writer *w, int package) {
     size_t begun = begin_set(w, package == MATERIAL ? 0x36 : 0x37, package);
     item_umid(w, 0x4401, package);
+    item_name(w, package);
     item_date(w, 0x4405);
     item_date(w, 0x4404);
     item_references(w, 0x4403, track_uid(package, 1, TRACK), track_count(w), A_TRACK);

@@ -145,6 +145,7 @@ static const struct {
     {0x3f07, 4, 0x0103040400000000}, /* BodySID */
     /* Packages */
     {0x4401, 1, 0x0101151000000000}, /* PackageUID */
+    {0x4402, 1, 0x0103030201000000}, /* PackageName */
     {0x4405, 2, 0x0702011001030000}, /* PackageCreationDate */
     {0x4404, 2, 0x0702011002050000}, /* PackageModifiedDate */
     {0x4403, 2, 0x0601010406050000}, /* Tracks */

@@ -21,6 +21,7 @@ struct wf_mxf {
     wf_mxf_options options;
     wf_outfile *file;
     wf_uid seed;
+    XXH3_state_t *hash;   /* of all bytes that are written */
     wf_bytes bytes;       /* what is being put together */
     uint64_t at;          /* bytes written */
     int64_t frames;       /* written */
@@ -72,6 +73,7 @@ static void plan_sizes(wf_mxf *m) {
 
 static weft_status flush(wf_mxf *m, weft_error *err) {
     if (m->bytes.failed) return wf_fail(err, WEFT_NO_MEMORY, "no memory for an MXF partition");
+    XXH3_128bits_update(m->hash, m->bytes.data, m->bytes.size);
     weft_status status = wf_outfile_write(m->file, m->bytes.data, m->bytes.size, err);
     m->at += m->bytes.size;
     m->bytes.size = 0;
@@ -128,11 +130,16 @@ static wf_uid seed_of(const wf_mxf *m, const void *picture) {
     return seed;
 }
 
-static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err) {
+static wf_bytes make_metadata(const wf_mxf *m) {
     wf_bytes metadata = {0};
-    m->seed = seed_of(m, picture);
     wf_mxf_metadata(&metadata, &m->options, m->seed);
     wf_klv_fill(&metadata, GRID_BYTES);
+    return metadata;
+}
+
+static weft_status write_header(wf_mxf *m, const void *picture, weft_error *err) {
+    m->seed = seed_of(m, picture);
+    wf_bytes metadata = make_metadata(m);
     m->header_bytes = metadata.size;
     m->start[1] = GRID_BYTES + metadata.size;
     m->start[2] = m->start[1] + GRID_BYTES + (uint64_t)m->options.frame_count * unit_bytes(m);
@@ -230,19 +237,41 @@ static void put_random_index(wf_mxf *m) {
     wf_klv_end(b, begun);
 }
 
+/* Shots that begin alike get other identifiers: those of all that was written, which are known
+ * now. The metadata are as long as they were. */
+static void identify(wf_mxf *m) {
+    XXH128_canonical_t words[2];
+    memcpy(&words[0], m->seed.byte, sizeof words[0]);
+    XXH128_canonicalFromHash(&words[1], XXH3_128bits_digest(m->hash));
+    XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)&m->seed,
+                             XXH3_128bits(words, sizeof words));
+}
+
+static weft_status write_metadata_again(wf_mxf *m, weft_error *err) {
+    wf_bytes metadata = make_metadata(m);
+    weft_status status = metadata.failed || metadata.size != m->header_bytes
+                             ? wf_fail(err, WEFT_NO_MEMORY, "no memory for an MXF header")
+                             : wf_outfile_seek(m->file, GRID_BYTES, err);
+    if (!status) status = wf_outfile_write(m->file, metadata.data, metadata.size, err);
+    free(metadata.data);
+    return status;
+}
+
 weft_status wf_mxf_finish(wf_mxf *m, weft_error *err) {
     wf_bytes index = {0};
     if (m->frames != m->options.frame_count || !m->frames)
         return wf_fail(err, WEFT_FAILED,
                        "MXF: %" PRId64 " frames were written and the header says %" PRId64,
                        m->frames, m->options.frame_count);
+    identify(m);
     put_index(&index, m);
     put_partition(m, FOOTER, index.size);
     wf_bytes_put(&m->bytes, index.data, index.size);
     m->bytes.failed |= index.failed;
     free(index.data);
     put_random_index(m);
-    return flush(m, err);
+    weft_status status = flush(m, err);
+    return status ? status : write_metadata_again(m, err);
 }
 
 /* ---- Opening ---- */
@@ -275,8 +304,11 @@ weft_status wf_mxf_open(const wf_mxf_options *options, wf_outfile *file, wf_mxf 
     if (!m) return wf_fail(err, WEFT_NO_MEMORY, "no memory to write MXF");
     m->options = *options;
     m->file = file;
+    m->hash = XXH3_createState();
     plan_sizes(m);
-    status = make_room(m, err);
+    status =
+        m->hash ? make_room(m, err) : wf_fail(err, WEFT_NO_MEMORY, "no memory to write MXF");
+    if (!status) XXH3_128bits_reset(m->hash);
     if (status)
         wf_mxf_free(m);
     else
@@ -285,6 +317,7 @@ weft_status wf_mxf_open(const wf_mxf_options *options, wf_outfile *file, wf_mxf 
 }
 
 void wf_mxf_free(wf_mxf *m) {
+    XXH3_freeState(m->hash);
     free(m->samples);
     free(m->packed);
     free(m->bytes.data);

@@ -2,7 +2,7 @@
 """patch_delivery.py FROM TO KIND NAME OFFSET BYTES: a copy of a file with hexadecimal BYTES written over.
 KIND atom: at OFFSET of the body of the last QuickTime atom of this name, or with a + before it the first. KIND item: at OFFSET of the value of MXF's item of this tag (hexadecimal), in every
 set of picture descriptors, and for tags 15.. in every timecode component. KIND label: of the operational
-pattern in every partition. KIND status: of the key of every partition pack, its byte 14. KIND end: at
+pattern in every partition. KIND sound: the atom of this name in every QuickTime track but the first. KIND status: of the key of every partition pack, its byte 14. KIND end: at
 OFFSET from the end of the file, which is below 0. KIND picture: of every picture coding extension of MPEG-2, whose byte 3 begins with
 the order of the fields."""
 import sys
@@ -67,7 +67,14 @@ def pictures(data, _, offset):
         at = data.find(b"\0\0\1\xb5\x8f", at + 4)
 
 
-KINDS = {"atom": atoms, "item": items, "label": labels, "status": statuses, "end": ends, "picture": pictures}
+def sounds(data, name, offset):
+    """Atoms of this name in every track but the first, which is of pictures."""
+    at = data.index(name.encode(), data.rindex(b"moov"))
+    while (at := data.find(name.encode(), at + 1)) >= 0:
+        yield at + 4 + offset
+
+
+KINDS = {"sound": sounds, "atom": atoms, "item": items, "label": labels, "status": statuses, "end": ends, "picture": pictures}
 source, target, kind, name, offset, new = sys.argv[1:]
 data, new = bytearray(open(source, "rb").read()), bytes.fromhex(new)
 places = list(KINDS[kind](bytes(data), name, int(offset)))

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 wf_verdict wf_check_whole(const wf_subject *s, wf_finding *f) {
     const wf_structure *structure = &s->structure;
@@ -53,4 +54,30 @@ wf_verdict wf_check_durations(const wf_subject *s, wf_finding *f) {
              worst->of, s->figures.frames);
     snprintf(should, sizeof should, "%.3f s", wf_picture_s(s));
     return wf_say(f, astray(s, worst) < half_s, is, should);
+}
+
+/* A UMID's number is its second half; libavformat counts packages in its last byte. */
+static bool is_zero(const uint8_t id[WF_ID_BYTES], bool umid) {
+    static const uint8_t none[16];
+    return !memcmp(id + (umid ? 16 : 0), none, umid ? 15 : 16);
+}
+
+static void tell_id(const uint8_t *id, bool umid, char *text, size_t size) {
+    size_t used = 0;
+    for (int i = 0; i < 16; i++)
+        used += (size_t)snprintf(text + used, size - used, "%02x", id[i + (umid ? 16 : 0)]);
+}
+
+/* Two shots never have the same. Matroska need not have any. */
+wf_verdict wf_check_identity(const wf_subject *s, wf_finding *f) {
+    const wf_structure *t = &s->structure;
+    bool umid = !strcmp(s->metadata.container, "mxf");
+    const uint8_t *id = t->id[t->has_id[1]];
+    char is[160];
+    if (!t->has_id[0] && !t->has_id[1]) return wf_open_question(f, "none");
+    tell_id(id, umid, is, sizeof is);
+    if (is_zero(id, umid)) return wf_say(f, false, is, "a number of its own");
+    if (!s->shared_with) return wf_say(f, true, is, "");
+    snprintf(is + 32, sizeof is - 32, ", as %.100s", s->shared_with);
+    return wf_say(f, false, is, "another than any other shot has");
 }

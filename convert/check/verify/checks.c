@@ -25,6 +25,7 @@ enum {
     FILES = 128,     /* it is an image sequence */
     STRUCTURE = 256, /* its container is one whose structure is read */
     CODEC = 512,     /* it is the profile's */
+    IDENTITY = 1024, /* its container names its material */
 };
 
 /* Whether every file is put to a check, or only where the profile has a text, a number or a
@@ -52,6 +53,7 @@ static const struct check {
     {"reading",    wf_check_reading,    ALWAYS, ALL, "its own header"},
     {"whole",      wf_check_whole,      STRUCTURE, ALL, "its own structure"},
     {"header",     wf_check_header,     STRUCTURE | MXF, ALL, "SMPTE ST 377-1"},
+    {"identity",   wf_check_identity,   STRUCTURE | IDENTITY, ALL, "SMPTE ST 330, RFC 9559"},
     {"container",  wf_check_container,  ALWAYS, TEXT(container), "%s"},
     {"codec",      wf_check_codec,      ALWAYS, TEXT(codec), "%s"},
     {"codec profile", wf_check_codec_profile, CONTAINER | CODEC, TEXT(codec_profile), "%s"},
@@ -92,6 +94,7 @@ static const struct check {
     {"sound codec", wf_check_sound_codec, SOUND, TEXT(sound_codec), "%s"},
     {"mono",       wf_check_mono,       SOUND, FLAG(mono), "%s"},
     {"one stream", wf_check_one_sound,  SOUND, FLAG(one_sound), "%s"},
+    {"heard",      wf_check_heard,      STRUCTURE | SOUND, ALL, "QuickTime File Format, RFC 9559"},
     {"levels",     wf_check_levels,     PIXELS, ALL, "EBU R 103"},
     {"reserved",   wf_check_reserved,   PIXELS, ALL, "Rec. ITU-R BT.601 and BT.709"},
     {"not checked", wf_check_not,       ALWAYS, TEXT(not_checked), "%s"},
@@ -112,7 +115,8 @@ static unsigned nature_of(const wf_subject *s) {
            (s->contained ? CONTAINER : 0) | (mov ? MOV : 0) | (mxf ? MXF : 0) |
            (s->contained && s->metadata.sound_streams ? SOUND : 0) |
            (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0) |
-           (of_profile ? CODEC : 0);
+           (of_profile ? CODEC : 0) |
+           (mxf || !strcmp(s->metadata.container, "matroska") ? IDENTITY : 0);
 }
 
 static bool is_asked(demand asked, const wf_profile *profile) {

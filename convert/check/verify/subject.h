@@ -16,8 +16,9 @@ typedef struct wf_subject {
     wf_metadata metadata;
     bool contained; /* it has a container, and metadata is known */
     wf_structure structure;
-    wf_figures figures; /* frames 0: the pixels cannot be read */
-    wf_raster raster;   /* that it is held to */
+    const char *shared_with; /* another file that says it is the same material; NULL: none */
+    wf_figures figures;      /* frames 0: the pixels cannot be read */
+    wf_raster raster;        /* that it is held to */
     bool raster_known;
     bool raster_asked;      /* by --raster, which goes before the profile's */
     wf_frame_labels labels; /* files 0: it is no image sequence */

@@ -98,6 +98,7 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     if (status || is_contained(&s.figures.info))
         s.contained = !wf_metadata_read(path, &s.metadata, &untold);
     if (s.contained) (void)wf_structure_read(path, s.metadata.container, &s.structure, &untold);
+    s.shared_with = wf_identities_shared(options->others, path, &s.structure);
     find_raster(&s, options->raster);
     if (!status && s.figures.info.layout != WF_YCBCR)
         (void)wf_frame_labels_read(path, s.raster.frame_rate, &s.labels, &untold);

@@ -2,6 +2,7 @@
 #define WF_CONVERT_CHECK_VERIFY_VERIFY_H
 
 #include "convert/check/verify/checks.h"
+#include "convert/check/verify/identity.h"
 #include "convert/check/verify/profiles.h"
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
@@ -19,6 +20,8 @@ typedef struct wf_verification {
 typedef struct wf_verify_options {
     const wf_profile *profile; /* NULL: none */
     const wf_raster *raster;   /* NULL: the profile's, else the one that the file says */
+    const wf_identities
+        *others; /* of all files that are verified together; NULL: it is alone */
     size_t max_memory_bytes;
     weft_progress_fn *progress;
     void *progress_user;

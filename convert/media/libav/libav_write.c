@@ -13,6 +13,7 @@
 #include "convert/job/colors.h"
 #include "convert/job/timecode.h"
 #include "convert/media/container.h"
+#include "convert/media/container_mkv.h"
 #include "convert/media/libav/libav.h"
 #include "convert/media/libav/libav_write_sound.h"
 
@@ -32,6 +33,7 @@ static AVRational ratio(wf_rational r) {
 
 static int put_bytes(void *user, uint8_t *data, int bytes) {
     wf_writing *w = user;
+    XXH3_128bits_update(w->hash, data, (size_t)bytes);
     return wf_outfile_write(w->file, data, (size_t)bytes, &w->failure) ? AVERROR(EIO) : bytes;
 }
 
@@ -43,6 +45,9 @@ static int64_t go_to(void *user, int64_t offset, int whence) {
 
 static weft_status open_file(wf_writing *w, weft_error *err) {
     const wf_output_options *o = &w->options;
+    w->hash = XXH3_createState();
+    if (!w->hash) return wf_fail(err, WEFT_NO_MEMORY, "%.500s: out of memory", o->output);
+    XXH3_128bits_reset(w->hash);
     weft_status status = wf_outfile_open(o->output, o->overwrite || o->resume, &w->file, err);
     if (status) return status;
     int code = avformat_alloc_output_context2(&w->format, NULL, w->delivery->muxer, NULL);
@@ -186,6 +191,11 @@ static const char *encoder_name(char name[64]) {
     return name;
 }
 
+static int name_packages(AVDictionary **about) {
+    int code = av_dict_set(about, "material_package_name", WF_MXF_PACKAGE_NAME, 0);
+    return code < 0 ? code : av_dict_set(about, "file_package_name", WF_MXF_PACKAGE_NAME, 0);
+}
+
 static weft_status write_header(wf_writing *w, weft_error *err) {
     AVDictionary **about = &w->format->metadata, *options = NULL;
     char name[64];
@@ -194,6 +204,9 @@ static weft_status write_header(wf_writing *w, weft_error *err) {
     if (code >= 0) code = av_dict_set(about, "product_name", "weft", 0);
     if (code >= 0) code = av_dict_set(about, "product_version", weft_version(), 0);
     if (code >= 0) code = av_dict_set(about, "encoding_tool", encoder_name(name), 0);
+    if (code >= 0 && !strcmp(w->delivery->muxer, "matroska"))
+        code = av_dict_set(about, "title", WF_MKV_TITLE, 0);
+    if (code >= 0 && !strncmp(w->delivery->muxer, "mxf", 3)) code = name_packages(about);
     if (code >= 0) code = avformat_write_header(w->format, &options);
     /* The muxer of QuickTime writes this at the end if it is not set after the header. */
     if (code >= 0) code = av_dict_set(about, "encoder", name, 0);
@@ -310,6 +323,7 @@ static void release(wf_writing *w) {
     av_frame_free(&w->frame);
     av_packet_free(&w->packet);
     close_file(w);
+    XXH3_freeState(w->hash);
     free(w->row);
     free(w);
 }
@@ -345,12 +359,14 @@ static weft_status open_writing(const wf_output_options *options, const wf_deliv
 }
 
 static weft_status complete(wf_writing *w, weft_error *err) {
-    const wf_container_facts facts = {
+    wf_container_facts facts = {
         .muxer = w->delivery->muxer,
         .raster = &w->raster,
         .tags = w->tags,
         .compressor = wf_delivery_quicktime(w->delivery, &w->raster).name,
     };
+    XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)facts.identity,
+                             XXH3_128bits_digest(w->hash));
     return wf_container_complete(w->file, &facts, err);
 }
 

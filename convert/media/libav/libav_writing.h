@@ -3,6 +3,7 @@
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <xxhash.h>
 
 #include "convert/base/outfile.h"
 #include "convert/job/audio.h"
@@ -28,6 +29,7 @@ typedef struct wf_writing {
     wf_raster raster; /* as it is in the file */
     wf_color_tags tags;
     wf_outfile *file;
+    XXH3_state_t *hash; /* of all bytes that are written */
     weft_error failure; /* the file's own words, where it was what failed */
     AVFormatContext *format;
     AVCodecContext *codec;

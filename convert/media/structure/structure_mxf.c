@@ -115,7 +115,7 @@ static void check_partitions(const wf_extent *x, partitions *p) {
 /* ---- Sets of the header ---- */
 
 static void read_package(const uint8_t *set, size_t bytes, int which, wf_structure *s) {
-    size_t length, at = wf_klv_item(set, bytes, 0x4401, &length);
+    size_t length, at = wf_klv_item(set, bytes, WF_MXF_PACKAGE_ID, &length);
     if (length != WF_ID_BYTES || s->has_id[which]) return;
     memcpy(s->id[which], set + at, WF_ID_BYTES);
     s->has_id[which] = true;
