@@ -6,10 +6,10 @@ weft=${1:-weft}
 mkdir -p pictures/scenes
 
 for scene in carousel wheel slow_edges csg_grid still one_mover zoneplate panorama; do
-    [ "$scene" = panorama ] && frame=40 || frame=10
-    "$weft" render "$scene.lua" --raster 320x240@30p,par=1:1 --frames "$frame" --bits 8 \
-        --samples 64 --set n=400 --overwrite -o "pictures/scenes/$scene.#.png"
-    mv "pictures/scenes/$scene.$(printf %04d "$frame").png" "pictures/scenes/$scene.png"
+    set -- "$scene.lua" --raster 320x240@30p,par=1:1 --frames 10 --bits 8 --samples 64 --overwrite
+    [ "$scene" = panorama ] && set -- "$@" --frames 40
+    [ "$scene" = csg_grid ] && set -- "$@" --set n=400
+    "$weft" render "$@" -o "pictures/scenes/$scene.png"
 done
 
 for feature in $(grep -o '^    [a-z_]* = function' gallery.lua | awk '{print $1}'); do

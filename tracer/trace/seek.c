@@ -204,7 +204,7 @@ static bool try_waiting(seeker *q, const wf_waiting *w, size_t count) {
 static bool try_programs(seeker *q) {
     wf_trace_scratch *s = q->s;
     size_t end;
-    qsort(s->waiting, s->waiting_count, sizeof *s->waiting, by_leaf);
+    if (s->waiting_count) qsort(s->waiting, s->waiting_count, sizeof *s->waiting, by_leaf);
     for (size_t first = 0; first < s->waiting_count; first = end) {
         const wf_waiting *w = &s->waiting[first];
         for (end = first + 1; end < s->waiting_count && s->waiting[end].leaf == w->leaf;) end++;
