@@ -85,20 +85,17 @@ void wf_light_free(wf_light *l) {
 
 /* ---- Scratch ---- */
 
+/* Columns are taken some at a time, which are in the nearest cache for all rows. */
+#define COLUMNS 128
+
 /* What a thread makes rows in, all of it floats. */
 typedef struct rows_made {
     int y0, y1;
-    float *held;       /* [held_lines][held_stride]: lines of one plane of chroma, from line */
-    int held_first;    /* held_first on, those beyond the picture's ends included */
+    float *held;    /* [held_lines][COLUMNS]: some columns of one plane of chroma, from line */
+    int held_first; /* held_first on, those beyond the picture's ends included */
     float *brought[3]; /* [WF_LIGHT_ROWS][brought_stride]: chroma at every row, with margins */
     float *spare;      /* [width] */
 } rows_made;
-
-/* A stride that is a multiple of the caches' ways would put whole columns at one place. */
-static size_t held_stride(const wf_light *l) {
-    size_t stride = ((size_t)l->chroma_width_px + 15) / 16 * 16;
-    return stride % 512 ? stride : stride + 16;
-}
 
 static size_t held_lines(const wf_light *l) {
     return (size_t)(parts(WF_LIGHT_ROWS, l->down.factor) + 1 + l->down.before + l->down.after);
@@ -109,7 +106,7 @@ static size_t brought_stride(const wf_light *l) {
 }
 
 size_t wf_light_scratch(const wf_light *l) {
-    return (held_lines(l) * held_stride(l) + 2 * WF_LIGHT_ROWS * brought_stride(l) +
+    return (held_lines(l) * COLUMNS + 2 * WF_LIGHT_ROWS * brought_stride(l) +
             (size_t)l->width_px) *
            sizeof(float);
 }
@@ -117,7 +114,7 @@ size_t wf_light_scratch(const wf_light *l) {
 static rows_made lay_out(const wf_light *l, int y0, int y1, float *scratch) {
     rows_made m = {.y0 = y0, .y1 = y1, .held = scratch};
     m.held_first = y0 / l->down.factor - l->down.before;
-    m.brought[1] = scratch + held_lines(l) * held_stride(l);
+    m.brought[1] = scratch + held_lines(l) * COLUMNS;
     m.brought[2] = m.brought[1] + WF_LIGHT_ROWS * brought_stride(l);
     m.spare = m.brought[2] + WF_LIGHT_ROWS * brought_stride(l);
     return m;
@@ -129,26 +126,22 @@ static float *brought_row(const wf_light *l, const rows_made *m, int p, int y) {
 
 /* ---- Chroma at every row ---- */
 
-static void hold_lines(const wf_light *l, const rows_made *m, int p, const uint16_t *plane) {
-    size_t width = (size_t)l->chroma_width_px;
+static void hold_lines(const wf_light *l, const rows_made *m, int p, const uint16_t *plane,
+                       size_t count) {
     int end = (m->y1 - 1) / l->down.factor + l->down.after + 1;
-    for (int i = m->held_first; i < end; i++) {
+    float *to = m->held;
+    for (int i = m->held_first; i < end; i++, to += COLUMNS) {
         int line = wf_upsample_reflected(&l->down, i, l->chroma_lines, l->lines);
-        l->loops->signals(m->held + (size_t)(i - m->held_first) * held_stride(l),
-                          plane + (size_t)line * width, l->zero[p], l->scale, width);
+        l->loops->signals(to, plane + (size_t)line * (size_t)l->chroma_width_px, l->zero[p],
+                          l->scale, count);
     }
 }
 
-/* Columns are taken some at a time, which are in the nearest cache for all rows. */
-enum { COLUMNS = 128 };
-
-static void weigh_columns(const wf_light *l, const rows_made *m, int p, int x) {
-    int left = l->chroma_width_px - x, count = left < COLUMNS ? left : COLUMNS;
+static void weigh_columns(const wf_light *l, const rows_made *m, int p, int x, size_t count) {
     for (int y = m->y0; y < m->y1; y++) {
         int line = y / l->down.factor - m->held_first;
-        l->loops->weigh(brought_row(l, m, p, y) + x,
-                        m->held + (size_t)line * held_stride(l) + x, (ptrdiff_t)held_stride(l),
-                        &l->down.phase[y % l->down.factor], (size_t)count);
+        l->loops->weigh(brought_row(l, m, p, y) + x, m->held + line * COLUMNS, COLUMNS,
+                        &l->down.phase[y % l->down.factor], count);
     }
 }
 
@@ -160,8 +153,11 @@ static void bring_down(const wf_light *l, const rows_made *m, int p, const uint1
                               l->scale, width);
         return;
     }
-    hold_lines(l, m, p, plane);
-    for (int x = 0; x < l->chroma_width_px; x += COLUMNS) weigh_columns(l, m, p, x);
+    for (int x = 0; x < l->chroma_width_px; x += COLUMNS) {
+        size_t left = (size_t)(l->chroma_width_px - x), count = left < COLUMNS ? left : COLUMNS;
+        hold_lines(l, m, p, plane + x, count);
+        weigh_columns(l, m, p, x, count);
+    }
 }
 
 /* ---- Light ---- */

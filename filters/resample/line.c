@@ -87,10 +87,9 @@ static void add_totals(const wf_field *f, wf_span taps, const wf_kernel *kernel,
         inside += f->inside[f->weights->taps[t].sum];
         exists += f->exists[f->weights->taps[t].sum];
     }
-    for (int i = 0; i < f->rs->x.pixels; i++) {
-        s->inside[i] += inside * kernel->inside[i];
-        s->exists[i] += exists * kernel->exists[i];
-    }
+    const wf_row_ops *ops = f->rs->ops;
+    ops->add_tap(s->inside, kernel->inside, inside, (size_t)f->rs->x.pixels);
+    ops->add_tap(s->exists, kernel->exists, exists, (size_t)f->rs->x.pixels);
     if (f->overscan) add_overscan(f, taps, kernel, s);
 }
 
@@ -130,12 +129,14 @@ static void add_background(const wf_resampler *rs, const wf_scratch *s, float *c
 static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
     const float *background = rs->desc.background;
     size_t run = wf_run_length(rs), phases = (size_t)rs->phases, width = (size_t)rs->x.pixels;
-    for (size_t i = 0; i < width; i++) s->exists[i] = 1 / s->exists[i];
+    rs->ops->invert(s->exists, width);
     if (background[0] != 0 || background[1] != 0 || background[2] != 0) {
         add_background(rs, s, rgb);
         return;
     }
-    for (size_t c = 0; c < 3; c++)
+    for (size_t c = 0; phases == 1 && c < 3; c++)
+        rs->ops->multiply(rgb[c], s->picture + c * run, s->exists, width);
+    for (size_t c = 0; phases > 1 && c < 3; c++)
         for (size_t r = 0; r < phases; r++) {
             const double *light = s->picture + (c * phases + r) * run;
             for (size_t i = r, m = 0; i < width; i += phases, m++)

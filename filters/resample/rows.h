@@ -19,6 +19,10 @@ typedef struct wf_row_ops {
     void (*add_row)(double *sum, const float *pixel, size_t count);
     /* sum[i] += weight * row[i] */
     void (*add_tap)(double *sum, const double *row, double weight, size_t count);
+    /* row[i] = 1 / row[i] */
+    void (*invert)(double *row, size_t count);
+    /* out[i] = a[i] b[i] */
+    void (*multiply)(float *out, const double *a, const double *b, size_t count);
     /* lane[z * lane_length + m] = (float)row[lanes * m + z] for all of count samples of row,
      * and 0 in what remains of the lanes */
     void (*split)(float *lane, const double *row, size_t lanes, size_t lane_length,

@@ -67,6 +67,15 @@ static void add_tap(double *restrict sum, const double *restrict row, double wei
     for (size_t i = 0; i < count; i++) sum[i] += weight * row[i];
 }
 
+static void invert(double *row, size_t count) {
+    for (size_t i = 0; i < count; i++) row[i] = 1 / row[i];
+}
+
+static void multiply(float *restrict out, const double *restrict a, const double *restrict b,
+                     size_t count) {
+    for (size_t i = 0; i < count; i++) out[i] = (float)(a[i] * b[i]);
+}
+
 static void split(float *restrict lane, const double *restrict row, size_t lanes,
                   size_t lane_length, size_t count) {
     for (size_t z = 0; z < lanes; z++) {
@@ -88,5 +97,7 @@ const wf_row_ops WF_ISA_TABLE(wf_row_ops) = {
     .set_rows = set_rows,
     .add_row = add_row,
     .add_tap = add_tap,
+    .invert = invert,
+    .multiply = multiply,
     .split = split,
 };

@@ -63,6 +63,21 @@ static void add_tap(level_run *r) {
     level_keep_doubles(r, sum, r->count);
 }
 
+static void invert(level_run *r) {
+    double *row = level_doubles(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->invert(row, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) row[i] = 1 / row[i];
+    level_keep_doubles(r, row, r->count);
+}
+
+static void multiply(level_run *r) {
+    double *a = level_doubles(r, r->count), *b = level_doubles(r, r->count);
+    float *out = level_floats(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->multiply(out, a, b, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) out[i] = (float)(a[i] * b[i]);
+    level_keep_floats(r, out, r->count);
+}
+
 static void split(level_run *r) {
     size_t lanes = 1 + level_draw(r) % 5, length = (r->count + lanes - 1) / lanes;
     length += level_draw(r) % 3;
@@ -80,6 +95,7 @@ static const level_row rows[] = {
     {"rows.add_half", add_half, true, 0},   {"rows.add_half of all", add_all_halves, true, 0},
     {"rows.add_float", add_float, true, 0}, {"rows.set_rows", set_rows, true, 0},
     {"rows.add_row", add_row, true, 0},     {"rows.add_tap", add_tap, true, 0},
+    {"rows.invert", invert, true, 0},       {"rows.multiply", multiply, true, 0},
     {"rows.split", split, true, 0},
 };
 
