@@ -23,33 +23,56 @@ static void add_taps(double *tap, int at, int parts, double share) {
             add_taps(tap, at + side * (1 + 2 * j), parts, 2 * (double)filter->pair[j] * share);
 }
 
-static void init_phase(wf_upsample_phase *phase, int at, int parts) {
-    double tap[WF_UPSAMPLE_MOST_TAPS] = {0};
-    int first = 0, last = WF_UPSAMPLE_MOST_TAPS - 1;
-    add_taps(tap, at, parts, 1);
-    while (tap[first] == 0) first++;
-    while (tap[last] == 0) last--;
+/* Keeps the taps of chroma samples first to last; the sums meet at sample 0. */
+static void keep_taps(wf_upsample_phase *phase, const double *tap, int first, int last) {
     *phase = (wf_upsample_phase){.first = first - MIDDLE, .count = last - first + 1};
-    if (phase->count > 1) phase->middle = MIDDLE - first + (at > 0);
+    if (phase->count > 1) phase->middle = MIDDLE - first;
     for (int i = 0; i < phase->count; i++) {
         phase->tap[i] = (float)tap[first + i];
         phase->fine_tap[i] = tap[first + i];
     }
 }
 
+static void find_ends(const double *tap, int *first, int *last) {
+    *first = 0;
+    *last = WF_UPSAMPLE_MOST_TAPS - 1;
+    while (tap[*first] == 0) ++*first;
+    while (tap[*last] == 0) --*last;
+}
+
 static int larger(int a, int b) {
     return a > b ? a : b;
 }
 
+static int lesser(int a, int b) {
+    return a < b ? a : b;
+}
+
+static void match_ends(int first[2], int last[2]) {
+    if (first[0] == last[0] || first[1] == last[1]) return;
+    first[0] = first[1] = lesser(first[0], first[1]);
+    last[0] = last[1] = larger(last[0], last[1]);
+}
+
 void wf_upsampler_init(wf_upsampler *u, int factor, bool center) {
+    double tap[WF_UPSAMPLE_MOST_FACTOR][WF_UPSAMPLE_MOST_TAPS] = {{0}};
+    int first[WF_UPSAMPLE_MOST_FACTOR], last[WF_UPSAMPLE_MOST_FACTOR];
     *u = (wf_upsampler){.factor = factor, .center = center && factor > 1};
     /* The first chroma sample lies (factor - 1) / 2 luma samples after the first, if amid. */
     for (int p = 0; p < factor; p++) {
-        wf_upsample_phase *phase = &u->phase[p];
-        init_phase(phase, 2 * p - (u->center ? factor - 1 : 0), 2 * factor);
-        u->before = larger(u->before, -phase->first);
-        u->after = larger(u->after, phase->first + phase->count - 1);
+        add_taps(tap[p], 2 * p - (u->center ? factor - 1 : 0), 2 * factor, 1);
+        find_ends(tap[p], &first[p], &last[p]);
     }
+    if (factor == 2) match_ends(first, last);
+    for (int p = 0; p < factor; p++) {
+        keep_taps(&u->phase[p], tap[p], first[p], last[p]);
+        u->before = larger(u->before, MIDDLE - first[p]);
+        u->after = larger(u->after, last[p] - MIDDLE);
+    }
+}
+
+bool wf_upsample_pairs(const wf_upsampler *u) {
+    return u->factor == 2 && u->phase[0].count > 1 && u->phase[1].count > 1;
 }
 
 /* ---- Lines ---- */
@@ -82,8 +105,15 @@ static const float *phase_samples(const wf_upsampler *u, const wf_signal_loops *
 static void fill_pairs(const wf_upsampler *u, const wf_signal_loops *loops, const float *chroma,
                        float *spare, float *line, int luma) {
     int pairs = luma / 2;
-    const float *even = phase_samples(u, loops, 0, chroma, luma - pairs, spare);
-    const float *odd = phase_samples(u, loops, 1, chroma, pairs, spare + luma - pairs);
+    float *out[2] = {spare, spare + luma - pairs};
+    const float *even = out[0], *odd = out[1];
+    if (wf_upsample_pairs(u)) {
+        loops->weigh_pair(out, chroma, 1, u->phase, (size_t)pairs);
+        if (luma % 2) loops->weigh(out[0] + pairs, chroma + pairs, 1, &u->phase[0], 1);
+    } else {
+        even = phase_samples(u, loops, 0, chroma, luma - pairs, out[0]);
+        odd = phase_samples(u, loops, 1, chroma, pairs, out[1]);
+    }
     wf_upsample_ops_best()->interleave(line, even, odd, (size_t)pairs);
     if (luma % 2) line[luma - 1] = even[pairs];
 }

@@ -16,7 +16,8 @@
 
 /* Luma sample `factor` j + phase is the sum of tap[i] times chroma sample j + first + i. Taps
  * are least at both ends; those before `middle` and those from it on are summed by themselves,
- * from the ends inward, so that rounding counts least. */
+ * from the ends inward, so that rounding counts least. Two phases that both weigh reach equally
+ * far, with taps of 0. */
 typedef struct wf_upsample_phase {
     int first, count, middle;
     float tap[WF_UPSAMPLE_MOST_TAPS];
@@ -29,6 +30,9 @@ typedef struct wf_upsampler {
     int before, after; /* how far any phase reaches before and after chroma sample j */
     wf_upsample_phase phase[WF_UPSAMPLE_MOST_FACTOR];
 } wf_upsampler;
+
+/* Whether its phases are two that are made together. */
+bool wf_upsample_pairs(const wf_upsampler *upsampler);
 
 void wf_upsampler_init(wf_upsampler *upsampler, int factor, bool center);
 
@@ -55,6 +59,9 @@ typedef struct wf_signal_loops {
      * the columns where it is that from line to line. */
     void (*weigh)(float *out, const float *chroma, ptrdiff_t step,
                   const wf_upsample_phase *phase, size_t count);
+    /* The same for two phases that reach equally far. */
+    void (*weigh_pair)(float *const out[2], const float *chroma, ptrdiff_t step,
+                       const wf_upsample_phase phase[2], size_t count);
     /* In place. */
     void (*rgb)(const wf_rgb_of_chroma *matrix, float *y_to_r, float *cb_to_g, float *cr_to_b,
                 size_t count);

@@ -4,6 +4,8 @@
 #include "color/line/lanes.h"
 #include "filters/base/isa_file.h"
 
+#include <stdbool.h>
+
 /* ---- In float ---- */
 
 static void signals(float *restrict signal, const uint16_t *restrict code, double zero,
@@ -12,23 +14,23 @@ static void signals(float *restrict signal, const uint16_t *restrict code, doubl
     for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
 }
 
+static inline void put_or_add(float *to, lanes sum, bool more) {
+    if (more) sum += lanes_at(to);
+    put_lanes(to, sum);
+}
+
 /* Vectors side by side, so that no sum waits for another. */
 enum { BESIDE = 4 };
 
-/* Taps k, k + by, .. up to but not with `end`. */
-static inline void add_taps(lanes sum[BESIDE], const float *from, ptrdiff_t step,
-                            const float *tap, int k, int end, int by) {
+/* Of taps k, k + by, .. up to but not with `end`, added to what is in out where `more`. */
+static inline void sum_taps(float *out, const float *from, ptrdiff_t step, const float *tap,
+                            int k, int end, int by, bool more) {
+    lanes sum[BESIDE];
+    for (int b = 0; b < BESIDE; b++) sum[b] = lanes_of(0);
     for (; k != end; k += by)
         for (int b = 0; b < BESIDE; b++)
             sum[b] += tap[k] * lanes_at(from + k * step + b * LANES);
-}
-
-static inline void weigh_lanes(float *out, const float *from, ptrdiff_t step,
-                               const wf_upsample_phase *p) {
-    lanes before[BESIDE] = {{0}}, after[BESIDE] = {{0}};
-    add_taps(before, from, step, p->tap, 0, p->middle, 1);
-    add_taps(after, from, step, p->tap, p->count - 1, p->middle - 1, -1);
-    for (int b = 0; b < BESIDE; b++) put_lanes(out + b * LANES, before[b] + after[b]);
+    for (int b = 0; b < BESIDE; b++) put_or_add(out + b * LANES, sum[b], more);
 }
 
 static inline float weigh_one(const float *from, ptrdiff_t step, const wf_upsample_phase *p) {
@@ -42,9 +44,42 @@ static void weigh(float *restrict out, const float *restrict chroma, ptrdiff_t s
                   const wf_upsample_phase *phase, size_t count) {
     const float *from = chroma + phase->first * step;
     size_t i = 0;
-    for (; i + BESIDE * LANES <= count; i += BESIDE * LANES)
-        weigh_lanes(out + i, from + i, step, phase);
+    for (; i + BESIDE * LANES <= count; i += BESIDE * LANES) {
+        sum_taps(out + i, from + i, step, phase->tap, 0, phase->middle, 1, false);
+        sum_taps(out + i, from + i, step, phase->tap, phase->count - 1, phase->middle - 1, -1,
+                 true);
+    }
     for (; i < count; i++) out[i] = weigh_one(from + i, step, phase);
+}
+
+/* Of taps k, k + by, .. up to but not with `end`, added to what is in out where `more`. */
+static inline void sum_pair(float *const out[2], const float *from, ptrdiff_t step,
+                            const wf_upsample_phase *p, int k, int end, int by, bool more) {
+    lanes a[BESIDE], c[BESIDE];
+    for (int b = 0; b < BESIDE; b++) a[b] = c[b] = lanes_of(0);
+    for (; k != end; k += by)
+        for (int b = 0; b < BESIDE; b++) {
+            lanes sample = lanes_at(from + k * step + b * LANES);
+            a[b] += p[0].tap[k] * sample;
+            c[b] += p[1].tap[k] * sample;
+        }
+    for (int b = 0; b < BESIDE; b++) {
+        put_or_add(out[0] + b * LANES, a[b], more);
+        put_or_add(out[1] + b * LANES, c[b], more);
+    }
+}
+
+static void weigh_pair(float *const out[2], const float *chroma, ptrdiff_t step,
+                       const wf_upsample_phase phase[2], size_t count) {
+    const float *from = chroma + phase->first * step;
+    size_t i = 0;
+    for (; i + BESIDE * LANES <= count; i += BESIDE * LANES) {
+        float *const to[2] = {out[0] + i, out[1] + i};
+        sum_pair(to, from + i, step, phase, 0, phase->middle, 1, false);
+        sum_pair(to, from + i, step, phase, phase->count - 1, phase->middle - 1, -1, true);
+    }
+    for (; i < count; i++)
+        for (int r = 0; r < 2; r++) out[r][i] = weigh_one(from + i, step, &phase[r]);
 }
 
 static void rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *restrict cb,
@@ -82,6 +117,11 @@ static void fine_weigh(float *restrict out, const float *restrict chroma, ptrdif
     }
 }
 
+static void fine_weigh_pair(float *const out[2], const float *chroma, ptrdiff_t step,
+                            const wf_upsample_phase phase[2], size_t count) {
+    for (int r = 0; r < 2; r++) fine_weigh(out[r], chroma, step, &phase[r], count);
+}
+
 static void fine_rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *restrict cb,
                      float *restrict cr, size_t count) {
     const wf_rgb_of_chroma m = *matrix;
@@ -104,7 +144,7 @@ static void interleave(float *restrict out, const float *restrict even,
 }
 
 const wf_upsample_ops WF_ISA_TABLE(wf_upsample_ops) = {
-    .quick = {signals, weigh, rgb},
-    .fine = {fine_signals, fine_weigh, fine_rgb},
+    .quick = {signals, weigh, weigh_pair, rgb},
+    .fine = {fine_signals, fine_weigh, fine_weigh_pair, fine_rgb},
     .interleave = interleave,
 };

@@ -16,6 +16,9 @@
 #include "convert/base/outplace.h"
 
 #define BUFFER_BYTES ((size_t)1 << 20)
+/* Files take their memory in pieces of what they are written in, and large ones cost the kernel
+ * several times as much. */
+#define WRITTEN_BYTES ((size_t)256 << 10)
 
 struct wf_outfile {
     wf_outplace place;
@@ -76,7 +79,9 @@ static int write_pieces(int fd, struct iovec *pieces, int count) {
             pieces++, count--;
             continue;
         }
-        ssize_t written = write_quietly(fd, pieces, count);
+        struct iovec first = {pieces->iov_base, pieces->iov_len};
+        if (first.iov_len > WRITTEN_BYTES) first.iov_len = WRITTEN_BYTES;
+        ssize_t written = write_quietly(fd, &first, 1);
         if (written < 0 && errno == EAGAIN)
             poll(&(struct pollfd){.fd = fd, .events = POLLOUT}, 1, 1000);
         else if (written < 0 && errno != EINTR)

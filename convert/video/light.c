@@ -86,7 +86,8 @@ void wf_light_free(wf_light *l) {
 /* ---- Scratch ---- */
 
 /* Columns are taken some at a time, which are in the nearest cache for all rows. */
-#define COLUMNS 128
+#define COLUMNS   128
+#define ALIGNMENT 64
 
 /* What a thread makes rows in, all of it floats. */
 typedef struct rows_made {
@@ -108,10 +109,14 @@ static size_t brought_stride(const wf_light *l) {
 size_t wf_light_scratch(const wf_light *l) {
     return (held_lines(l) * COLUMNS + 2 * WF_LIGHT_ROWS * brought_stride(l) +
             (size_t)l->width_px) *
-           sizeof(float);
+               sizeof(float) +
+           ALIGNMENT;
 }
 
-static rows_made lay_out(const wf_light *l, int y0, int y1, float *scratch) {
+/* Held columns lie where vectors do. */
+static rows_made lay_out(const wf_light *l, int y0, int y1, void *unaligned) {
+    uintptr_t at = (uintptr_t)unaligned;
+    float *scratch = (float *)((char *)unaligned + (ALIGNMENT - at % ALIGNMENT) % ALIGNMENT);
     rows_made m = {.y0 = y0, .y1 = y1, .held = scratch};
     m.held_first = y0 / l->down.factor - l->down.before;
     m.brought[1] = scratch + held_lines(l) * COLUMNS;
@@ -138,10 +143,16 @@ static void hold_lines(const wf_light *l, const rows_made *m, int p, const uint1
 }
 
 static void weigh_columns(const wf_light *l, const rows_made *m, int p, int x, size_t count) {
+    int factor = l->down.factor;
     for (int y = m->y0; y < m->y1; y++) {
-        int line = y / l->down.factor - m->held_first;
-        l->loops->weigh(brought_row(l, m, p, y) + x, m->held + line * COLUMNS, COLUMNS,
-                        &l->down.phase[y % l->down.factor], count);
+        const float *held = m->held + (y / factor - m->held_first) * COLUMNS;
+        float *to = brought_row(l, m, p, y) + x;
+        if (wf_upsample_pairs(&l->down) && y % 2 == 0 && y + 1 < m->y1) {
+            l->loops->weigh_pair((float *[2]){to, brought_row(l, m, p, ++y) + x}, held, COLUMNS,
+                                 l->down.phase, count);
+            continue;
+        }
+        l->loops->weigh(to, held, COLUMNS, &l->down.phase[y % factor], count);
     }
 }
 

@@ -25,6 +25,7 @@ import time
 
 import plot
 import scenes
+import videos
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCENES = os.path.join(HERE, "..", "..", "examples", "scenes")
@@ -283,6 +284,7 @@ def targets(bench):
     subframes(bench)
     stages(bench)
     memory(bench)
+    videos.video(bench)
 
 
 # ---- Results ----

@@ -189,6 +189,30 @@ static void fine_weigh(level_run *r) {
     weigh(r, true);
 }
 
+/* As one by one. */
+static void weigh_pair(level_run *r, bool fine) {
+    wf_upsampler u;
+    wf_upsampler_init(&u, 2, true);
+    size_t beyond = (size_t)(u.phase->count - 1), step = level_draw(r) % 2 ? 1 : 19;
+    float *chroma = level_floats(r, r->count + beyond * step);
+    float *out[2] = {level_floats(r, r->count), level_floats(r, r->count)};
+    const float *from = chroma - u.phase->first * (ptrdiff_t)step;
+    const wf_upsample_ops *ops = wf_upsample_ops_at(r->plain ? 0 : r->level);
+    const wf_signal_loops *loops = fine ? &ops->fine : &ops->quick;
+    if (!r->plain) loops->weigh_pair(out, from, (ptrdiff_t)step, u.phase, r->count);
+    for (int p = 0; r->plain && p < 2; p++)
+        loops->weigh(out[p], from, (ptrdiff_t)step, &u.phase[p], r->count);
+    for (int p = 0; p < 2; p++) level_keep_floats(r, out[p], r->count);
+}
+
+static void quick_weigh_pair(level_run *r) {
+    weigh_pair(r, false);
+}
+
+static void fine_weigh_pair(level_run *r) {
+    weigh_pair(r, true);
+}
+
 static void rgb(level_run *r, bool fine) {
     const wf_rgb_of_chroma m = {1 / 876.0, 1.5748 / 896, 1.8556 / 896, 0.1873 / 896,
                                 0.4681 / 896};
@@ -223,9 +247,14 @@ static void interleave(level_run *r) {
 }
 
 static const level_row upsample_rows[] = {
-    {"quick.signals", quick_signals, true, 0},    {"quick.weigh", quick_weigh, true, 4e-7},
-    {"quick.rgb", quick_rgb, true, 3e-7},         {"fine.signals", fine_signals, true, 0},
-    {"fine.weigh", fine_weigh, true, 0},          {"fine.rgb", fine_rgb, true, 0},
+    {"quick.signals", quick_signals, true, 0},
+    {"quick.weigh", quick_weigh, true, 4e-7},
+    {"quick.weigh_pair", quick_weigh_pair, true, 0},
+    {"fine.weigh_pair", fine_weigh_pair, true, 0},
+    {"quick.rgb", quick_rgb, true, 3e-7},
+    {"fine.signals", fine_signals, true, 0},
+    {"fine.weigh", fine_weigh, true, 0},
+    {"fine.rgb", fine_rgb, true, 0},
     {"upsample.interleave", interleave, true, 0},
 };
 
