@@ -103,8 +103,61 @@ double wf_gather_apart(const wf_gather *g, int64_t field) {
     return instants_apart(&g->desc, field, g->field);
 }
 
+/* Cells that an aperture reaches: it is at most 4 pixels wide. */
+#define MOST_ACROSS 5
+#define MOST_DOWN   (2 * WF_STAIRS_LINES + 1)
+
+/* The means of an aperture over cells: [k][n] of the cell that begins first_u + n pixels and
+ * first_v + k lines from the pixel's middle. */
+typedef struct cell_heights {
+    double of[MOST_DOWN][MOST_ACROSS], first_u, first_v;
+    int across, down;
+} cell_heights;
+
+static cell_heights heights_of(const wf_aperture *a) {
+    cell_heights h = {.first_u = -ceil(a->reach_u + 0.5) + 0.5,
+                      .first_v = -ceil(a->reach_v + 0.5) + 0.5};
+    h.across = (int)fmin(-2 * h.first_u, MOST_ACROSS);
+    h.down = (int)fmin(-2 * h.first_v, MOST_DOWN);
+    for (int k = 0; k < h.down; k++)
+        for (int n = 0; n < h.across; n++) {
+            double u = h.first_u + n, v = h.first_v + k;
+            h.of[k][n] = a->kind->cell_uv(a, u, u + 1, v, v + 1);
+        }
+    return h;
+}
+
+static void add_cell(wf_gather *g, const cell_heights *h, int x, int y, const double rgb[3]) {
+    for (int k = 0; k < h->down; k++) {
+        int j = y - (int)(h->first_v + k + 0.5), line = (j - g->parity) / g->line_step;
+        if (j < g->parity || (j - g->parity) % g->line_step || line < g->held.first ||
+            line >= g->held.end)
+            continue;
+        wf_pixel_sum *sum = wf_gather_sums(g, line);
+        for (int n = 0; n < h->across; n++) {
+            int i = x - (int)(h->first_u + n + 0.5);
+            if (h->of[k][n] == 0 || i < g->held.left || i >= g->held.right) continue;
+            sum[i].r += h->of[k][n] * rgb[0];
+            sum[i].g += h->of[k][n] * rgb[1];
+            sum[i].b += h->of[k][n] * rgb[2];
+            sum[i].weight += h->of[k][n];
+        }
+    }
+}
+
+static void add_cells(wf_gather *g, const wf_sample_cells *cells) {
+    const cell_heights heights = heights_of(&g->desc.aperture);
+    for (size_t n = 0; n < cells->count; n++) {
+        const double rgb[3] = {(double)cells->rgb[0][n], (double)cells->rgb[1][n],
+                               (double)cells->rgb[2][n]};
+        add_cell(g, &heights, cells->x[n], cells->y[n], rgb);
+    }
+}
+
 void wf_gather_add(wf_gather *g, const wf_samples *samples) {
-    wf_gather_ops_best()->add(g, samples, wf_gather_apart(g, samples->field));
+    double apart = wf_gather_apart(g, samples->field);
+    wf_gather_ops_best()->add(g, samples, apart);
+    if (samples->cells && apart == 0) add_cells(g, samples->cells);
 }
 
 void wf_gather_fill(wf_gather *g, const wf_sample_tile *tile, const float rgb[3]) {

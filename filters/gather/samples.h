@@ -19,6 +19,15 @@ typedef struct wf_gather_desc {
     wf_rational skew; /* 0..1; {0, 0}: 0 */
 } wf_gather_desc;
 
+/* Cells of the raster, each one pixel of one frame line, and the mean color of each over the
+ * window of the samples' field. An aperture's integral over a cell is known; that many samples
+ * of the cell lie in it is not. */
+typedef struct wf_sample_cells {
+    size_t count;
+    const int *x, *y;    /* [count] */
+    const float *rgb[3]; /* [count] each */
+} wf_sample_cells;
+
 /* A block of samples, one array for each property, borrowed. */
 typedef struct wf_samples {
     size_t count;
@@ -27,6 +36,12 @@ typedef struct wf_samples {
     int64_t field;
     const float *rgb[3]; /* scene-linear, over the background */
     const float *weight; /* NULL: 1 each */
+    /* NULL, or the cells in which all of these samples lie: then rgb is what each sample differs
+     * from its cell's mean, weights add up to 1 in each cell, and a pixel is
+     * sum(H C + sum(h w c)) / sum(H), H the mean of h over the cell, C the cell's color. For
+     * apertures that do not couple v and q, and samples that lie evenly in the window of their
+     * field and of those at the same instant. */
+    const wf_sample_cells *cells;
 } wf_samples;
 
 /* How a raster is cut into rectangles of samples. */

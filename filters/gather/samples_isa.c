@@ -44,7 +44,7 @@ static void load(const wf_samples *s, size_t first, double apart, run *r) {
         r->light[0][i] = w * (double)s->rgb[0][at];
         r->light[1][i] = w * (double)s->rgb[1][at];
         r->light[2][i] = w * (double)s->rgb[2][at];
-        r->light[3][i] = w;
+        r->light[3][i] = s->cells ? 0 : w;
     }
 }
 

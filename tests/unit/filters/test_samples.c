@@ -287,12 +287,98 @@ static void empty_pixels(void **state) {
     wf_gather_free(g);
 }
 
+/* ---- Cells ---- */
+
+#define GRID 48 /* samples across and down a cell, which stand for its integral */
+
+static float color_of(int x, int y) {
+    return (float)((x * 7 + y * 13) % 10) / 10;
+}
+
+/* Every cell of an 8 x 16 raster by a grid of samples, in the middle of the window. */
+static void add_grids(wf_gather *g, float late) {
+    enum { COUNT_EACH = GRID * GRID };
+    static float x[COUNT_EACH], y[COUNT_EACH], t[COUNT_EACH], c[COUNT_EACH];
+    for (int cell = 0; cell < 8 * 16; cell++) {
+        for (int n = 0; n < COUNT_EACH; n++) {
+            x[n] = (float)(cell % 8) + ((float)(n % GRID) + 0.5f) / GRID;
+            y[n] = (float)(cell / 8) + ((float)(n / GRID) + 0.5f) / GRID;
+            t[n] = late;
+            c[n] = color_of(cell % 8, cell / 8);
+        }
+        const wf_samples samples = {
+            .count = COUNT_EACH, .x = x, .y = y, .t = t, .field = 0, .rgb = {c, c, c}};
+        wf_gather_add(g, &samples);
+    }
+}
+
+static void add_cells(wf_gather *g, int64_t field) {
+    int x[8 * 16], y[8 * 16];
+    float c[8 * 16];
+    for (int cell = 0; cell < 8 * 16; cell++) {
+        x[cell] = cell % 8;
+        y[cell] = cell / 8;
+        c[cell] = color_of(x[cell], y[cell]);
+    }
+    const wf_sample_cells cells = {8 * 16, x, y, {c, c, c}};
+    const wf_samples samples = {.field = field, .cells = &cells};
+    wf_gather_add(g, &samples);
+}
+
+/* Colors of cells are weighed by the integral of the aperture over each. */
+static void cells_are_weighed(void **state) {
+    (void)state;
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++) {
+        scenario s = {
+            .raster = "8x16@30i,tff", .aperture = apertures[a].aperture, .width = {1, 2}};
+        wf_raster raster;
+        wf_gather_desc d = describe(&s, &raster);
+        if (d.aperture.kind->couples_vq) continue;
+        wf_gather *grids = wf_gather_new(&d, 0, 0, 8), *cells = wf_gather_new(&d, 0, 0, 8);
+        float one[3][8], two[3][8];
+        add_grids(grids, 0.25f);
+        add_cells(cells, 0);
+        add_cells(cells, 2); /* of another time */
+        for (int l = 0; l < 8; l++) {
+            assert_int_equal(wf_gather_line(grids, l, (float *[3]){one[0], one[1], one[2]}),
+                             -1);
+            assert_int_equal(wf_gather_line(cells, l, (float *[3]){two[0], two[1], two[2]}),
+                             -1);
+            for (int i = 0; i < 8; i++)
+                if (fabsf(one[0][i] - two[0][i]) > 0.004f)
+                    fail_msg("%s, line %d, pixel %d: %g, not %g", s.aperture, l, i,
+                             (double)two[0][i], (double)one[0][i]);
+        }
+        wf_gather_free(grids);
+        wf_gather_free(cells);
+    }
+}
+
+/* What samples differ from their cells adds color alone. */
+static void differences_weigh_nothing(void **state) {
+    (void)state;
+    scenario s = {.raster = "8x16@30i,tff", .aperture = "box", .width = {1, 2}};
+    wf_raster raster;
+    wf_gather_desc d = describe(&s, &raster);
+    wf_gather *g = wf_gather_new(&d, 0, 0, 8);
+    static const wf_sample_cells none;
+    float x = 3.5f, y = 4.5f, t = 0.25f, red = 0.5f, line[3][8];
+    add_cells(g, 0);
+    wf_gather_line(g, 2, (float *[3]){line[0], line[1], line[2]});
+    float before = line[0][3];
+    const wf_samples samples = {
+        .count = 1, .x = &x, .y = &y, .t = &t, .rgb = {&red, &red, &red}, .cells = &none};
+    wf_gather_add(g, &samples);
+    wf_gather_line(g, 2, (float *[3]){line[0], line[1], line[2]});
+    assert_true(fabsf(line[0][3] - before - 0.25f) < 1e-6f); /* box: half of two cells */
+    wf_gather_free(g);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_sums),
-        cmocka_unit_test(bands_merge),
-        cmocka_unit_test(what_is_reached),
-        cmocka_unit_test(empty_pixels),
+        cmocka_unit_test(cells_are_weighed), cmocka_unit_test(differences_weigh_nothing),
+        cmocka_unit_test(the_sums),          cmocka_unit_test(bands_merge),
+        cmocka_unit_test(what_is_reached),   cmocka_unit_test(empty_pixels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

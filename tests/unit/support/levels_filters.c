@@ -238,7 +238,7 @@ static void gather(level_run *r) {
     float *blue = level_floats(r, r->count), *weight = level_floats(r, r->count);
     if (wf_ratio_value(d.width) <= 0)
         for (size_t i = 0; i < r->count; i++) t[i] *= 0x1p-13f;
-    const wf_samples s = {r->count, x, y, t, 2, {red, green, blue}, weight};
+    const wf_samples s = {r->count, x, y, t, 2, {red, green, blue}, weight, NULL};
     if (r->plain)
         add_plainly(g, &s, 0);
     else
