@@ -1,12 +1,8 @@
 /* As many samples as each place needs. A cell's samples are one scrambled Sobol sequence, whose
- * quarters are sequences of their own: how far their means lie apart says how far the mean of
- * all may be from the truth, and rather too much, since all together lie more evenly than four
- * that know nothing of each other would. Where that is too far, for the cell itself or one
- * beside it, an edge is looked for (adaptive_edges.c), or the cell's samples become two
- * or four times as many; nothing drawn is drawn in vain.
- *
- * What few samples see alike is not to be believed where something else is near: there each
- * cell gets more, unless the edges beside it are known to pass it by. */
+ * quarters say how far the mean of all may be from the truth, and those of the cells about it
+ * what its own may have missed (adaptive_pool.c). Where that is too far, the cell gets as many
+ * samples as the error will take; nothing drawn is drawn in vain. Where that would be very
+ * many, an edge is looked for instead (adaptive_edges.c). */
 #include "tracer/sample/adaptive.h"
 
 #include <math.h>
@@ -14,123 +10,33 @@
 #include "tracer/sample/adaptive_edges.h"
 #include "tracer/sample/adaptive_lines.h"
 #include "tracer/sample/adaptive_points.h"
+#include "tracer/sample/adaptive_pool.h"
 
-/* Samples of a quarter to begin with: of the tile's cells, and of those beside it, which are
- * only to show what comes near. */
+/* Samples of a quarter to begin with, and the error from which on cells about the tile make no
+ * difference. */
 #define FIRST_EACH   2
-#define FIRST_BESIDE 1
+#define FIRST_ABOUT  1
+#define COARSE_ERROR 0.02
 
-/* Samples of a quarter, times the error asked for, that are believed: a part of a cell that
- * none of them sees may be as large as the share of one. */
-#define BELIEVED 0.04
-
-/* Differences of samples that make no difference if some are not seen, in errors asked for. */
-#define SLIGHT 4
-
-/* About how many samples an edge costs. As points a cell needs as many more as the square of
- * its error is too large, to this power. */
+/* Samples of a quarter that tell whether there is an edge, how many times as many may tell
+ * more, and how many more a cell has to need as points before one is looked for, which costs
+ * about 40 rays. */
+#define EDGE_EACH    4
+#define AGAIN        4
 #define EDGE_SAMPLES 64
-#define STEEPNESS    0.7
 
-/* The square of the cosine between edges of neighbors that are one. */
-#define ALIKE 0.8
+/* How fast the square of an error may fall as samples become more, how far it may be over
+ * before there are more, and how many times as many there are in the next round at most. */
+#define FAST_FALL    1.25
+#define TOLERATED    1.2
+#define MOST_AT_ONCE 16
 
-/* Of the squares of errors: from here on four times as many samples are not too many. */
-#define FAR_OVER 8
+/* What is said of errors' squares, beside what was found: rather too much. */
+#define SAID 1.15
 
-/* How far past a cell an edge passes it by. */
-#define PAST 0.15
-
-static const wf_adaptive_edge *edge_of(const wf_adaptive *a, const wf_adaptive_cell *c) {
-    return &a->edge[c - a->cell];
-}
-
-/* The largest of a cell's and its neighbors': an edge that all quarters missed here was seen
- * next door. */
-static double error_about(const wf_adaptive *a, int at) {
-    double most = a->cell[at].error;
-    for (int down = -1; down <= 1; down++)
-        for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
-            if (c && c->own && c->error / 2 > most) most = c->error / 2;
-        }
-    return most;
-}
-
-/* ---- What may be hidden ---- */
-
-static int believed_each(double error) {
-    int each = 1;
-    while (each < WF_MOST_EACH && each * error < BELIEVED) each *= 2;
-    return each;
-}
-
-static bool is_believed(const wf_adaptive *a, int at) {
-    return a->cell[at].each >= believed_each(a->s->desc.error);
-}
-
-/* Where an aperture's edge cuts cells, what lies two rows away matters to how a cell is filled.
- */
-int wf_adaptive_rows_about(const wf_sampling *s) {
-    if (believed_each(s->desc.error) <= FIRST_EACH) return 0;
-    return wf_cuts_cells(s) ? 2 : 1;
-}
-
-/* The smaller of two slopes; 0 where one goes up and one goes down. */
-static double gentler(double a, double b) {
-    if (!(a * b > 0)) return 0;
-    return fabs(a) < fabs(b) ? a : b;
-}
-
-/* How light changes from cell to cell: what is seen on both sides, not the step of an edge on
- * one. */
-static double slope_of(const wf_adaptive_cell *before, const wf_adaptive_cell *here,
-                       const wf_adaptive_cell *after, int channel) {
-    if (!before || !after) return 0;
-    return gentler(here->mean[channel] - before->mean[channel],
-                   after->mean[channel] - here->mean[channel]);
-}
-
-/* Light that changes evenly about a cell, and how far from that makes no difference. */
-typedef struct trend {
-    double mean[3], right[3], down[3], margin[3];
-} trend;
-
-static trend trend_about(const wf_adaptive *a, int at) {
-    const wf_adaptive_cell *c = &a->cell[at];
-    trend t;
-    for (int k = 0; k < 3; k++) {
-        t.mean[k] = c->mean[k];
-        t.right[k] = slope_of(wf_cell_beside(a, at, -1, 0), c, wf_cell_beside(a, at, 1, 0), k);
-        t.down[k] = slope_of(wf_cell_beside(a, at, 0, -1), c, wf_cell_beside(a, at, 0, 1), k);
-        t.margin[k] =
-            (fabs(t.right[k]) + fabs(t.down[k])) / 2 + SLIGHT * a->s->desc.error / c->steep[k];
-    }
-    return t;
-}
-
-static bool follows(const trend *t, const wf_adaptive_cell *c, int right, int down) {
-    bool all = true;
-    for (int k = 0; k < 3; k++) {
-        double even = t->mean[k] + right * t->right[k] + down * t->down[k];
-        all &= (double)c->low[k] >= even - t->margin[k] &&
-               (double)c->high[k] <= even + t->margin[k];
-    }
-    return all;
-}
-
-/* Whether nothing is near that might hide in a cell. */
-static bool quiet(const wf_adaptive *a, int at) {
-    trend t = trend_about(a, at);
-    for (int down = -1; down <= 1; down++)
-        for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
-            bool here = !right && !down;
-            if (!c || follows(&t, c, right, down)) continue;
-            if (here || !wf_edge_passes_by(edge_of(a, c), right, down, PAST)) return false;
-        }
-    return true;
-}
+/* The cosine between edges of neighbors that are one, and how far apart they may be. */
+#define ALIKE  0.9
+#define NEARBY 0.3
 
 /* ---- Who wants more ---- */
 
@@ -138,66 +44,51 @@ static bool quiet(const wf_adaptive *a, int at) {
  * looked at; 0: it is not in question. */
 typedef int wants_fn(const wf_adaptive *a, int at);
 
-/* Cells that show more than one thing. */
-static int is_mixed(const wf_adaptive *a, int at) {
-    trend t = trend_about(a, at);
-    bool mixed = !is_believed(a, at) && !follows(&t, &a->cell[at], 0, 0);
-    return mixed ? believed_each(a->s->desc.error) : 0;
+/* How many times as many samples a cell wants. */
+static double wanted(const wf_adaptive *a, int at) {
+    double over = a->cell[at].need / wf_adaptive_target(a);
+    return pow(over, 1 / fmax(a->fall, FAST_FALL));
 }
 
-/* Those which are themselves the trouble, not one beside them, and would need more samples as
- * points than an edge does. */
+static bool needs_many(const wf_adaptive *a, int at) {
+    return !a->edge[at].found &&
+           WF_QUARTERS * a->cell[at].each * (wanted(a, at) - 1) > EDGE_SAMPLES;
+}
+
+static int wants_to_be_seen(const wf_adaptive *a, int at) {
+    return needs_many(a, at) && a->cell[at].each < EDGE_EACH ? EDGE_EACH : 0;
+}
+
+/* Whatever they say once there are some more: quarters may agree where none is right. */
 static int wants_edge(const wf_adaptive *a, int at) {
-    const wf_adaptive_cell *c = &a->cell[at];
-    if (a->edge[at].tried || a->edge[at].found || c->error <= wf_adaptive_target(a)) return 0;
-    return WF_QUARTERS * c->each * pow(c->error / wf_adaptive_target(a), STEEPNESS) >
-           EDGE_SAMPLES;
+    if (!a->edge[at].tried) return a->edge[at].seen || needs_many(a, at);
+    return a->cell[at].each >= AGAIN * a->edge[at].tried && needs_many(a, at);
 }
 
 static int wants_to_follow(const wf_adaptive *a, int at) {
     int any = 0;
-    if (a->edge[at].found || a->edge[at].followed || !is_believed(a, at)) return 0;
+    if (a->edge[at].followed || a->edge[at].found) return 0;
     for (int down = -1; down <= 1; down++)
         for (int right = -1; right <= 1; right++)
             any |= wf_edge_coming(a, at, right, down) != NULL;
     return any;
 }
 
-static int is_suspect(const wf_adaptive *a, int at) {
-    bool suspect = !a->edge[at].found && !is_believed(a, at) && !quiet(a, at);
-    return suspect ? believed_each(a->s->desc.error) : 0;
-}
-
-/* Cells of one color beside which others are. Where an aperture's edge cuts cells, few samples
- * say badly how much of each it sees. */
-static int wants_to_be_filled(const wf_adaptive *a, int at) {
-    trend t = trend_about(a, at);
-    if (a->edge[at].found || a->cell[at].error > wf_adaptive_target(a) ||
-        !follows(&t, &a->cell[at], 0, 0))
-        return 0;
-    int unlike = 0;
-    for (int down = -ABOUT_ROWS; down <= ABOUT_ROWS; down++)
-        for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
-            unlike |= c && !follows(&t, c, right, down);
-        }
-    return unlike;
-}
-
-/* Twice as many, or four times if that is sure to be too few. */
+/* As many as the error will take, to the nearest power of two. */
 static int wants_samples(const wf_adaptive *a, int at) {
-    int each = a->cell[at].each;
-    double over = error_about(a, at) / wf_adaptive_target(a);
-    if (a->edge[at].found || each >= WF_MOST_EACH || over <= 1) return 0;
-    return over > FAR_OVER && 4 * each <= WF_MOST_EACH ? 4 * each : 2 * each;
+    int was = a->cell[at].each, each = 2 * was;
+    bool again = a->edge[at].tried && !a->edge[at].found && was < AGAIN * EDGE_EACH;
+    double most = was * fmin(wanted(a, at), again ? AGAIN : MOST_AT_ONCE);
+    if (was >= WF_MOST_EACH || a->cell[at].need <= TOLERATED * wf_adaptive_target(a)) return 0;
+    while (M_SQRT2 * each <= most && 2 * each <= WF_MOST_EACH) each *= 2;
+    return each;
 }
 
 /* Among the tile's own cells, or those about it, too. */
 static bool choose(wf_adaptive *a, bool about, wants_fn *wants) {
     int any = 0;
     for (int at = 0; at < GRID_CELLS; at++) {
-        const wf_adaptive_cell *c = &a->cell[at];
-        a->more[at] = (about ? c->there : c->own) ? wants(a, at) : 0;
+        a->more[at] = (about ? a->cell[at].there : a->cell[at].own) ? wants(a, at) : 0;
         any |= a->more[at];
     }
     return any;
@@ -208,39 +99,31 @@ static bool choose(wf_adaptive *a, bool about, wants_fn *wants) {
 static bool draw_round(wf_adaptive *a) {
     if (!wf_points_draw(a)) return false;
     for (int at = 0; at < GRID_CELLS; at++)
-        if (a->more[at]) wf_cell_find_error(a, &a->cell[at]);
+        if (a->more[at]) wf_cell_find_mean(&a->cell[at]);
+    wf_pool_errors(a);
     return true;
 }
 
-static bool draw_all(wf_adaptive *a, bool about, wants_fn *wants) {
-    while (choose(a, about, wants))
-        if (!draw_round(a)) return false;
-    return true;
+/* Whether the edge of a neighbor, so many cells to the right and rows down, goes on as a cell's
+ * own: either side may be the first. */
+static bool is_one(const wf_adaptive_edge *own, const wf_adaptive_edge *edge, int right,
+                   int down) {
+    double size = sqrt(wf_dot(edge->n, edge->n)), own_size = sqrt(wf_dot(own->n, own->n));
+    double along = wf_dot(edge->n, own->n) / (size * own_size);
+    double middle[3] = {0.5, 0.5, 0.5};
+    double from =
+        (edge->d + edge->n[0] * right + edge->n[1] * down - wf_dot(edge->n, middle)) / size;
+    double own_from = (own->d - wf_dot(own->n, middle)) / own_size;
+    return fabs(along) > ALIKE && fabs(copysign(1, along) * from - own_from) < NEARBY;
 }
 
-/* Edges where there is trouble, and as far as they go on, once more samples are where that may
- * be. */
-static bool find_edges(wf_adaptive *a) {
-    if (!draw_all(a, true, is_mixed)) return false;
-    if (choose(a, true, wants_edge) && !wf_edges_find(a)) return false;
-    do {
-        if (!draw_all(a, false, is_suspect)) return false;
-        if (choose(a, false, wants_edge) && !wf_edges_find(a)) return false;
-        if (choose(a, false, wants_to_follow) && !wf_edges_follow(a)) return false;
-    } while (choose(a, false, wants_to_follow));
-    return true;
-}
-
-/* Whether a neighbor's edge comes in across a cell's own: there is a corner, of which samples
- * may not have seen enough to tell. */
+/* Whether a neighbor's edge comes in that is another than a cell's own: there is a corner or
+ * something thin, of which samples may not have seen enough to tell. */
 static bool is_crossed(const wf_adaptive *a, int at) {
-    const double *n = a->edge[at].n;
     for (int down = -1; down <= 1; down++)
         for (int right = -1; right <= 1; right++) {
             const wf_adaptive_edge *edge = wf_edge_coming(a, at, right, down);
-            if (!edge) continue;
-            double along = wf_dot(edge->n, n);
-            if (along * along < ALIKE * wf_dot(edge->n, edge->n) * wf_dot(n, n)) return true;
+            if (edge && !is_one(&a->edge[at], edge, right, down * a->step)) return true;
         }
     return false;
 }
@@ -249,92 +132,80 @@ static void forget_crossed(wf_adaptive *a) {
     bool crossed[GRID_CELLS];
     for (int at = 0; at < GRID_CELLS; at++)
         crossed[at] = a->edge[at].found && is_crossed(a, at);
-    for (int at = 0; at < GRID_CELLS; at++) {
-        if (!crossed[at]) continue;
-        a->edge[at].found = false;
-        wf_cell_find_error(a, &a->cell[at]);
-    }
+    for (int at = 0; at < GRID_CELLS; at++)
+        if (crossed[at]) a->edge[at].found = false, a->edge[at].error = 0;
 }
 
-static bool sample(wf_adaptive *a, bool empty) {
-    if (!draw_round(a)) return false;
-    if (empty) return true;
-    if (!find_edges(a)) return false;
+/* Edges where points would be many, and as far as they go on. */
+static bool find_edges(wf_adaptive *a) {
+    bool any = choose(a, true, wants_to_be_seen);
+    for (int at = 0; at < GRID_CELLS; at++) a->edge[at].seen |= a->more[at] > 0;
+    if (any && !draw_round(a)) return false;
+    if (!choose(a, true, wants_edge)) return true;
+    if (!wf_edges_find(a)) return false;
+    while (choose(a, true, wants_to_follow))
+        if (!wf_edges_follow(a)) return false;
     forget_crossed(a);
-    if (!draw_all(a, false, is_suspect)) return false;
-    if (wf_cuts_cells(a->s) && choose(a, false, wants_to_be_filled) && !wf_edges_fill(a))
-        return false;
-    return draw_all(a, false, wants_samples);
+    wf_points_add_again(a);
+    wf_pool_errors(a);
+    return true;
+}
+
+static bool sample(wf_adaptive *a) {
+    if (!draw_round(a) || !find_edges(a)) return false;
+    while (choose(a, false, wants_samples))
+        if (!draw_round(a) || !find_edges(a)) return false;
+    return true;
 }
 
 /* ---- Tiles ---- */
 
+int wf_adaptive_about(const wf_sampling *s) {
+    return s->desc.error < COARSE_ERROR ? ABOUT : 0;
+}
+
 /* One row of the tile's cells and those beside it. */
-static void begin_row(wf_adaptive *a, int row, bool own, int columns) {
-    int width = a->s->raster.width_px;
+static void begin_row(wf_adaptive *a, int row, bool own, int about) {
+    int width = a->s->raster.width_px, x0 = a->tile->x0, x1 = a->tile->x1;
     for (int at = row * GRID_WIDTH; at < (row + 1) * GRID_WIDTH; at++) {
         wf_adaptive_cell *c = &a->cell[at];
-        int x = wf_cell_x(a, at), x0 = a->tile->x0, x1 = a->tile->x1;
+        int x = wf_cell_x(a, at);
         c->own = own && x >= x0 && x < x1;
-        c->there = x >= 0 && x < width && x >= x0 - columns && x < x1 + columns;
-        a->more[at] = c->own ? FIRST_EACH : c->there ? FIRST_BESIDE : 0;
+        c->there = x >= 0 && x < width && x >= x0 - about && x < x1 + about;
+        a->more[at] = c->own ? FIRST_EACH : c->there ? FIRST_ABOUT : 0;
     }
 }
 
-/* The tile's rows and, unless it is empty, those about it. */
-static void begin(wf_adaptive *a, int end, bool empty) {
-    int rows = empty ? 0 : wf_adaptive_rows_about(a->s), columns = rows > 0 ? ABOUT : 0;
+/* The tile's rows and those about it that are wanted; lines of a field alone are every other.
+ */
+static void begin(wf_adaptive *a, int end) {
+    int about = wf_adaptive_about(a->s), before = -2;
     a->c->kept.count = 0;
+    a->step = 2;
     for (int row = 0; row < GRID_ROWS; row++) {
         int y = wf_cell_y(a, row * GRID_WIDTH);
-        if (y < 0 || y >= a->s->raster.lines || y < a->first - rows || y >= end + rows)
+        if (y < 0 || y >= a->s->raster.lines || y < a->first - about || y >= end + about)
             continue;
-        if (wf_find_row_time(a->s, y, &a->time[row]))
-            begin_row(a, row, y >= a->first && y < end, columns);
+        if (!wf_find_row_time(a->s, y, &a->time[row])) continue;
+        begin_row(a, row, y >= a->first && y < end, about);
+        if (row == before + 1) a->step = 1;
+        before = row;
     }
-}
-
-/* How far the light of two cells is apart on the display; squared. */
-static double contrast_of(const wf_adaptive_cell *c, const wf_adaptive_cell *d) {
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double apart = (c->mean[k] - d->mean[k]) * fmax(c->steep[k], d->steep[k]);
-        square += apart * apart / 3;
-    }
-    return square;
-}
-
-/* Where an aperture's edge cuts cells: how much it sees of a cell beside others is as uncertain
- * as the share of its points is. */
-static double cut_error(const wf_adaptive *a, int at) {
-    const wf_adaptive_edge *edge = &a->edge[at];
-    int pieces = wf_edge_pieces(&a->s->desc.gather.aperture);
-    double points = edge->found ? edge->lines * pieces : WF_QUARTERS * a->cell[at].each,
-           most = 0;
-    if (!wf_cuts_cells(a->s)) return 0;
-    for (int down = -1; down <= 1; down++)
-        for (int right = -1; right <= 1; right++) {
-            const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
-            if (c) most = fmax(most, contrast_of(&a->cell[at], c));
-        }
-    return most * wf_points_share_error(points) * wf_adaptive_share(a);
 }
 
 static void sum_errors(const wf_adaptive *a) {
     for (int at = 0; at < GRID_CELLS; at++) {
         if (!a->cell[at].own) continue;
-        const wf_adaptive_edge *edge = &a->edge[at];
-        double error = edge->found ? a->cell[at].error + edge->unseen : error_about(a, at);
-        a->c->error.square += error + cut_error(a, at);
+        a->c->error.square += SAID * (a->cell[at].need + a->edge[at].error);
         a->c->error.cells++;
     }
 }
 
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty) {
-    wf_adaptive a = {.tile = tile, .s = tile->s, .c = tile->c, .first = first};
-    begin(&a, end, empty);
-    if (!sample(&a, empty)) return false;
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end) {
+    wf_adaptive a = {
+        .tile = tile, .s = tile->s, .c = tile->c, .first = first, .caution = WF_FIRST_CAUTION};
+    begin(&a, end);
+    if (!sample(&a)) return false;
     sum_errors(&a);
-    wf_points_emit(&a);
-    return wf_edges_emit(&a);
+    return wf_points_emit(&a) && wf_edges_emit(&a);
 }

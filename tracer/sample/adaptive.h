@@ -3,13 +3,11 @@
 
 #include "tracer/sample/sampling_inside.h"
 
-/* How many rows above and below a tile are looked at, too; if any are, so is a column to each
- * side of it. */
-int wf_adaptive_rows_about(const wf_sampling *s);
+/* How many cells about a tile are looked at, too, to each side. */
+int wf_adaptive_about(const wf_sampling *s);
 
 /* Samples rows first <= j < end of a tile as its error asks, hands them to the receiver, and
- * adds what error is left to the scratch's. empty: nothing but background is seen. False: no
- * memory. */
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty);
+ * adds what error is left to the scratch's. False: no memory. */
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end);
 
 #endif

@@ -4,10 +4,6 @@
 
 #include <math.h>
 
-/* How far four means lie apart often looks smaller than it is: of the error asked for, cells
- * may have this share. */
-#define CAUTION 0.7
-
 /* ---- Errors ---- */
 
 double wf_display_steepness(double v) {
@@ -26,37 +22,28 @@ double wf_adaptive_share(const wf_adaptive *a) {
     return shares[aperture->kind->profile];
 }
 
-static double mean_of(const wf_adaptive_cell *c, int quarter, int channel) {
-    return c->sum[quarter][channel] / c->each;
+void wf_cell_find_mean(wf_adaptive_cell *c) {
+    for (int k = 0; k < 3; k++) {
+        double sum = c->expected[k];
+        for (int quarter = 0; quarter < WF_QUARTERS; quarter++) sum += c->sum[quarter][k];
+        c->mean[k] = sum / (WF_QUARTERS * c->each);
+    }
 }
 
-void wf_cell_find_error(const wf_adaptive *a, wf_adaptive_cell *c) {
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double mean = 0, square_sum = 0;
-        for (int quarter = 0; quarter < WF_QUARTERS; quarter++)
-            mean += mean_of(c, quarter, k) / WF_QUARTERS;
-        for (int quarter = 0; quarter < WF_QUARTERS; quarter++) {
-            double apart = mean_of(c, quarter, k) - mean;
-            square_sum += apart * apart;
-        }
-        c->mean[k] = mean;
-        c->steep[k] = wf_display_steepness(mean);
-        square +=
-            square_sum / (WF_QUARTERS * (WF_QUARTERS - 1)) * c->steep[k] * c->steep[k] / 3;
-    }
-    c->error = square * wf_adaptive_share(a);
+void wf_edge_colors(const wf_adaptive_edge *edge, const double p[3], double rgb[3]) {
+    int side = !(wf_dot(edge->n, p) < edge->d);
+    for (int k = 0; k < 3; k++) rgb[k] = wf_edge_color(edge->rgb[side][k], p);
 }
 
 double wf_adaptive_target(const wf_adaptive *a) {
-    double most = a->s->desc.error * CAUTION;
+    double most = a->s->desc.error * a->caution;
     return most * most;
 }
 
 /* ---- Cells beside ---- */
 
 const wf_adaptive_cell *wf_cell_beside(const wf_adaptive *a, int at, int right, int down) {
-    int column = at % GRID_WIDTH + right, row = at / GRID_WIDTH + down;
+    int column = at % GRID_WIDTH + right, row = at / GRID_WIDTH + down * a->step;
     if (column < 0 || column >= GRID_WIDTH || row < 0 || row >= GRID_ROWS) return NULL;
     const wf_adaptive_cell *c = &a->cell[row * GRID_WIDTH + column];
     return c->there ? c : NULL;
@@ -77,6 +64,12 @@ bool wf_cuts_cells(const wf_sampling *s) {
     return wf_edge_pieces(&s->desc.gather.aperture) > WF_FEW_PIECES;
 }
 
+/* Where an aperture sees all of a window, its weight for a cell is that of all times. */
+bool wf_cells_are_weighed(const wf_sampling *s) {
+    return wf_cuts_cells(s) && !s->desc.gather.aperture.kind->couples_vq && !s->periods &&
+           !(s->skew > 0);
+}
+
 /* ---- Edges ---- */
 
 int wf_axis_across(const double n[3]) {
@@ -86,13 +79,14 @@ int wf_axis_across(const double n[3]) {
 
 /* Rows of a skewed field are a little later than those above, some thousandth of a window,
  * which is left out. */
-bool wf_edge_passes_by(const wf_adaptive_edge *edge, int right, int down, double past) {
-    double from[3] = {-right, -down, 0}, low = 0, high = 0;
+bool wf_edge_passes_by(const wf_adaptive *a, const wf_adaptive_edge *edge, int right, int down,
+                       double past) {
+    double from[3] = {-right, -down * a->step, 0}, low = 0, high = 0;
     if (!edge->found) return false;
     for (int k = 0; k < 3; k++) {
-        double a = edge->n[k] * from[k], b = edge->n[k] * (from[k] + 1);
-        low += fmin(a, b);
-        high += fmax(a, b);
+        double one = edge->n[k] * from[k], other = edge->n[k] * (from[k] + 1);
+        low += fmin(one, other);
+        high += fmax(one, other);
     }
     past *= sqrt(wf_dot(edge->n, edge->n));
     return edge->d < low - past || edge->d > high + past;
@@ -101,5 +95,5 @@ bool wf_edge_passes_by(const wf_adaptive_edge *edge, int right, int down, double
 const wf_adaptive_edge *wf_edge_coming(const wf_adaptive *a, int at, int right, int down) {
     const wf_adaptive_cell *c = wf_cell_beside(a, at, right, down);
     const wf_adaptive_edge *edge = c ? &a->edge[c - a->cell] : NULL;
-    return edge && edge->found && !wf_edge_passes_by(edge, right, down, 0) ? edge : NULL;
+    return edge && edge->found && !wf_edge_passes_by(a, edge, right, down, 0) ? edge : NULL;
 }

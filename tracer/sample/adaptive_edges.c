@@ -16,6 +16,9 @@
 /* How far on the wrong side of the plane a sample may lie: edges are curved. */
 #define BENT 0.05
 
+/* How far the sides may overlap before anything is known but the samples. */
+#define OVERLAP 0.5
+
 /* How far from the plane an edge is looked for at first, and once it was found. */
 #define WIDE   0.4
 #define NARROW 0.06
@@ -28,17 +31,10 @@
  * cell. */
 #define DRAWN_IN 0.15
 
-/* The share of cells with a known edge in which something else, as large as the part of the
- * cell that one sample stands for, was not seen. */
-#define UNSEEN 0.05
-
 #define FIRST_LINES 16
 
 /* What the lines that a cell is integrated over may add, of the error it may have. */
 #define LINES_SHARE 0.125
-
-/* The contrast to which filled cells are made: about that of black and white; squared. */
-#define FILLED 0.5
 
 /* The stretch in which an edge is known to lie is cut into so many parts at once, so that
  * packets are filled. */
@@ -65,7 +61,8 @@ static void find_normal(wf_seeker *e) {
     for (int k = 0; k < 3 && !e->lost; k++) e->n[k] /= size;
 }
 
-/* Between the last sample of the first side and the first one of the second. */
+/* Between the last sample of the first side and the first one of the second, which may overlap
+ * by no more than a curve explains. */
 static void find_offset(wf_seeker *e) {
     double low = -HUGE_VAL, high = HUGE_VAL;
     for (const wf_seen *v = e->first; v < e->end; v++) {
@@ -76,6 +73,7 @@ static void find_offset(wf_seeker *e) {
             low = fmax(low, along);
     }
     e->d = (low + high) / 2;
+    e->lost |= low - high > OVERLAP;
 }
 
 /* Where the plane meets the edges of the cell. */
@@ -253,19 +251,6 @@ static bool agrees(const wf_seeker *e) {
     return true;
 }
 
-/* How uncertain the edge's place is; squared. */
-static double place_error(const wf_seeker *e) {
-    double width = 0;
-    int found = 0;
-    for (const wf_support *f = e->support; f < e->support + e->supports; f++) {
-        if (!f->found) continue;
-        width += f->high - f->low;
-        found++;
-    }
-    width /= found;
-    return width * width / 12 / found + e->bend * e->bend / 16;
-}
-
 /* How far the sides are apart on the display, to a pixel that is nearer to the darker one:
  * there the same error of light makes more difference. Squared. */
 static double contrast_to_dark(const wf_seeker *e) {
@@ -298,26 +283,20 @@ static int lines_for(const wf_seeking *s, double contrast, double error) {
     return lines;
 }
 
-/* Keeps the edge if what it leaves uncertain is little enough. */
+/* What the edge does not explain of the cell's samples says how good it is. */
 static void keep(wf_seeking *s, const wf_seeker *e) {
-    double most = wf_adaptive_target(s->a), contrast = contrast_to_dark(e), error = 0;
-    double samples = (double)(e->end - e->first), share = wf_adaptive_share(s->a);
-    wf_adaptive_edge edge = s->a->edge[e->at];
-    memcpy(edge.n, e->n, sizeof edge.n);
-    edge.d = e->d;
+    double most = wf_adaptive_target(s->a), contrast = contrast_to_dark(e);
+    wf_adaptive_edge *edge = &s->a->edge[e->at];
+    memcpy(edge->n, e->n, sizeof edge->n);
+    edge->d = e->d;
     for (int side = 0; side < 2; side++) {
         wf_side_sums sums;
         wf_sum_side(e, side, &sums);
-        wf_fit_color(&sums, e->mean[side], edge.rgb[side]);
-        error += wf_color_error(s, e, side, sums.count, edge.rgb[side]);
+        wf_fit_color(&sums, e->mean[side], edge->rgb[side]);
     }
-    edge.lines = lines_for(s, contrast, most * LINES_SHARE);
-    edge.unseen = UNSEEN * contrast * share / (samples * samples);
-    error = share * (error + contrast * (place_error(e) + lines_error(s, edge.lines)));
-    edge.found = error <= most;
-    if (!edge.found) return;
-    s->a->edge[e->at] = edge;
-    s->a->cell[e->at].error = error;
+    edge->lines = lines_for(s, contrast, most * LINES_SHARE);
+    edge->error = wf_adaptive_share(s->a) * contrast * lines_error(s, edge->lines);
+    edge->found = true;
 }
 
 /* ---- All of a tile ---- */
@@ -370,7 +349,7 @@ static bool seek(wf_seeking *s) {
     if (!search(s, WIDE)) return false;
     for (int n = 0; n < s->count; n++) {
         wf_seeker *e = &s->seekers[n];
-        double fine = s->a->s->desc.error / sqrt(contrast_to_dark(e));
+        double fine = 2 * s->a->s->desc.error / sqrt(contrast_to_dark(e));
         e->narrow = fmin(fmax(fine, FINEST), NARROW / 2);
     }
     if (!search(s, NARROW)) return false;
@@ -416,7 +395,7 @@ bool wf_edges_find(wf_adaptive *a) {
     wf_seeking s;
     if (!begin_seeking(a, &s)) return false;
     for (int n = 0; n < s.count; n++) {
-        a->edge[s.seekers[n].at].tried = true;
+        a->edge[s.seekers[n].at].tried = a->cell[s.seekers[n].at].each;
         begin(&s.seekers[n]);
     }
     return seek(&s);
@@ -434,7 +413,7 @@ static void follow(wf_adaptive *a, wf_seeker *e) {
         const wf_adaptive_edge *edge = wf_edge_coming(a, e->at, right, down);
         if (!edge) continue;
         e->lost = false;
-        begin_with(e, edge, right, down);
+        begin_with(e, edge, right, down * a->step);
         return;
     }
 }
@@ -444,25 +423,4 @@ bool wf_edges_follow(wf_adaptive *a) {
     if (!begin_seeking(a, &s)) return false;
     for (int n = 0; n < s.count; n++) follow(a, &s.seekers[n]);
     return seek(&s);
-}
-
-/* ---- Cells that no edge crosses ---- */
-
-/* Treats a cell as if an edge passed it by: all of it is one side, for which many points stand.
- */
-static void fill(const wf_seeking *s, const wf_seeker *e) {
-    wf_adaptive_edge *edge = &s->a->edge[e->at];
-    wf_side_sums sums;
-    for (wf_seen *v = e->first; v < e->end; v++) v->side = 0;
-    wf_sum_side(e, 0, &sums);
-    int lines = lines_for(s, FILLED, 2 * wf_adaptive_target(s->a));
-    *edge = (wf_adaptive_edge){.found = true, .n = {0, 1, 0}, .d = 2, .lines = lines};
-    wf_fit_color(&sums, sums.rgb, edge->rgb[0]);
-}
-
-bool wf_edges_fill(wf_adaptive *a) {
-    wf_seeking s;
-    if (!begin_seeking(a, &s)) return false;
-    for (int n = 0; n < s.count; n++) fill(&s, &s.seekers[n]);
-    return true;
 }

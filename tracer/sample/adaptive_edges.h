@@ -8,10 +8,6 @@
 bool wf_edges_find(wf_adaptive *a);
 bool wf_edges_follow(wf_adaptive *a);
 
-/* Makes cells in question ones of an edge that passes them by: of one color, however few
- * samples they have. False: no memory. */
-bool wf_edges_fill(wf_adaptive *a);
-
 void wf_edges_free(wf_edge_scratch *scratch);
 
 #endif

@@ -8,6 +8,9 @@
 
 #define COLUMNS 8
 
+/* Cells to the right that may share a packet. */
+#define NEAR_CELLS 3
+
 /* All arrays of floats of samples. */
 static void find_columns(wf_adaptive_samples *k, float **column[COLUMNS]) {
     float **const all[COLUMNS] = {&k->x,      &k->y,      &k->t,      &k->fraction,
@@ -110,31 +113,74 @@ static double late_of(const wf_adaptive *a, const wf_adaptive_samples *k, size_t
     return a->time[k->cell[sample] / WF_QUARTERS / GRID_WIDTH].late;
 }
 
-/* Whole packets, whichever rows their samples are of. */
+/* Where the samples end that are of the same cell as the first. */
+static size_t end_of_cell(const wf_adaptive_samples *k, size_t first) {
+    size_t end = first + 1;
+    while (end < k->count && k->cell[end] / WF_QUARTERS == k->cell[first] / WF_QUARTERS) end++;
+    return end;
+}
+
+/* Whether two cells of the grid are of one row and not far apart. */
+static bool are_near(int at, int next) {
+    return at / GRID_WIDTH == next / GRID_WIDTH && next - at <= NEAR_CELLS;
+}
+
+/* Where a packet ends, or many: cells that fit into one together, or all of one cell's samples.
+ * A packet that spans the fewest cells meets the fewest solids. */
+static size_t end_of_packet(const wf_adaptive *a, const wf_adaptive_samples *k, size_t first) {
+    size_t end = end_of_cell(k, first);
+    if (end - first > a->c->capacity) return first + a->c->capacity;
+    while (end < k->count && (end - first) % WF_TRACE_PACKET) {
+        size_t next = end_of_cell(k, end);
+        if ((end - first) % WF_TRACE_PACKET + (next - end) > WF_TRACE_PACKET) break;
+        if (!are_near(k->cell[end - 1] / WF_QUARTERS, k->cell[end] / WF_QUARTERS)) break;
+        end = next;
+    }
+    return end;
+}
+
 bool wf_points_trace(const wf_adaptive *a, wf_adaptive_samples *k, size_t first) {
     for (size_t end; first < k->count; first = end) {
-        double late = late_of(a, k, first);
-        for (end = first + 1; end < k->count && end - first < a->c->capacity;)
-            if (late_of(a, k, end++) != late) {
-                end--;
-                break;
-            }
-        if (!trace(a, k, late, first, end - first)) return false;
+        end = end_of_packet(a, k, first);
+        if (!trace(a, k, late_of(a, k, first), first, end - first)) return false;
     }
     return true;
 }
 
-static void add_up(wf_adaptive *a, size_t first) {
+/* What the edge of a sample's cell says of its light; 0 if there is none. */
+static void expect(const wf_adaptive *a, const wf_adaptive_samples *k, size_t n,
+                   double rgb[3]) {
+    int at = k->cell[n] / WF_QUARTERS;
+    const double p[3] = {(double)k->x[n] - wf_cell_x(a, at), (double)k->y[n] - wf_cell_y(a, at),
+                         (double)k->fraction[n]};
+    memset(rgb, 0, 3 * sizeof *rgb);
+    if (a->edge[at].found) wf_edge_colors(&a->edge[at], p, rgb);
+}
+
+static void add_up(wf_adaptive *a, size_t n, int quarter) {
     const wf_adaptive_samples *k = &a->c->kept;
-    for (size_t n = first; n < k->count; n++) {
-        wf_adaptive_cell *cell = &a->cell[k->cell[n] / WF_QUARTERS];
-        int quarter = k->cell[n] % WF_QUARTERS;
-        for (int c = 0; c < 3; c++) {
-            float v = k->rgb[c][n];
-            cell->sum[quarter][c] += (double)v;
-            cell->low[c] = v < cell->low[c] ? v : cell->low[c];
-            cell->high[c] = v > cell->high[c] ? v : cell->high[c];
-        }
+    wf_adaptive_cell *cell = &a->cell[k->cell[n] / WF_QUARTERS];
+    double says[3];
+    expect(a, k, n, says);
+    for (int c = 0; c < 3; c++) {
+        double v = (double)k->rgb[c][n] - says[c];
+        cell->sum[quarter][c] += v;
+        cell->square[c] += v * v;
+        cell->expected[c] += says[c];
+    }
+}
+
+void wf_points_add_again(wf_adaptive *a) {
+    const wf_adaptive_samples *k = &a->c->kept;
+    int seen[GRID_CELLS] = {0};
+    for (int at = 0; at < GRID_CELLS; at++) {
+        memset(a->cell[at].sum, 0, sizeof a->cell[at].sum);
+        memset(a->cell[at].square, 0, sizeof a->cell[at].square);
+        memset(a->cell[at].expected, 0, sizeof a->cell[at].expected);
+    }
+    for (size_t n = 0; n < k->count; n++) {
+        int at = k->cell[n] / WF_QUARTERS;
+        add_up(a, n, seen[at]++ / a->cell[at].each);
     }
 }
 
@@ -146,7 +192,6 @@ static bool draw_cell(wf_adaptive *a, int at) {
     int was = c->each, each = a->more[at];
     for (int quarter = 0; quarter < WF_QUARTERS; quarter++)
         for (int k = 0; k < 3; k++) sum[quarter * was / each][k] += c->sum[quarter][k];
-    for (int k = 0; !was && k < 3; k++) c->low[k] = HUGE_VALF, c->high[k] = -HUGE_VALF;
     memcpy(c->sum, sum, sizeof sum);
     c->each = each;
     for (int quarter = 0; quarter < WF_QUARTERS; quarter++) {
@@ -163,42 +208,114 @@ bool wf_points_draw(wf_adaptive *a) {
         if (a->more[at] && !draw_cell(a, at)) return false;
     }
     if (!wf_points_trace(a, &a->c->kept, first)) return false;
-    add_up(a, first);
+    for (size_t n = first; n < a->c->kept.count; n++)
+        add_up(a, n, a->c->kept.cell[n] % WF_QUARTERS);
     return true;
 }
 
 /* ---- Handing over ---- */
 
-void wf_points_hand_over(const wf_adaptive *a, const wf_adaptive_samples *k) {
+/* Cells whose colors are handed over by themselves. */
+typedef struct cell_colors {
+    int index[GRID_CELLS]; /* of the cell's; -1: it has no samples */
+    int x[GRID_CELLS], y[GRID_CELLS];
+    float rgb[3][GRID_CELLS];
+    wf_sample_cells cells;
+} cell_colors;
+
+static void list_cells(const wf_adaptive *a, const wf_adaptive_samples *k, cell_colors *c) {
+    size_t count = 0;
+    for (int at = 0; at < GRID_CELLS; at++) c->index[at] = -1;
+    for (size_t n = 0; n < k->count; n++) {
+        int at = k->cell[n] / WF_QUARTERS;
+        if (c->index[at] >= 0) continue;
+        c->x[count] = wf_cell_x(a, at);
+        c->y[count] = wf_cell_y(a, at);
+        c->index[at] = (int)count++;
+    }
+    c->cells = (wf_sample_cells){count, c->x, c->y, {c->rgb[0], c->rgb[1], c->rgb[2]}};
+}
+
+/* Leaves of the samples what they differ from the means of their cells. */
+static void take_means(const wf_adaptive_samples *k, cell_colors *c) {
+    for (int ch = 0; ch < 3; ch++) {
+        double sum[GRID_CELLS] = {0};
+        for (size_t n = 0; n < k->count; n++)
+            sum[c->index[k->cell[n] / WF_QUARTERS]] +=
+                (double)k->rgb[ch][n] * (double)k->weight[n];
+        for (size_t i = 0; i < c->cells.count; i++) c->rgb[ch][i] = (float)sum[i];
+        for (size_t n = 0; n < k->count; n++)
+            k->rgb[ch][n] -= c->rgb[ch][c->index[k->cell[n] / WF_QUARTERS]];
+    }
+}
+
+static void hand_over(const wf_adaptive *a, const wf_adaptive_samples *k,
+                      const wf_sample_cells *cells) {
     const wf_samples samples = {.count = k->count,
                                 .x = k->x,
                                 .y = k->y,
                                 .t = k->t,
                                 .field = a->s->field,
                                 .rgb = {k->rgb[0], k->rgb[1], k->rgb[2]},
-                                .weight = k->weight};
+                                .weight = k->weight,
+                                .cells = cells};
     if (k->count) a->tile->receiver->samples(a->tile->receiver->user, &samples);
 }
 
-/* Leaves out the samples of cells whose edge is known, and of those beside the tile. */
-static void drop(wf_adaptive_samples *k, const wf_adaptive *a) {
-    float **column[COLUMNS];
-    size_t left = 0;
-    find_columns(k, column);
-    for (size_t n = 0; n < k->count; n++) {
-        int at = k->cell[n] / WF_QUARTERS;
-        if (!a->cell[at].own || a->edge[at].found) continue;
-        for (int c = 0; c < COLUMNS; c++) (*column[c])[left] = (*column[c])[n];
-        k->cell[left++] = k->cell[n];
+void wf_points_hand_over(const wf_adaptive *a, const wf_adaptive_samples *k) {
+    cell_colors colors;
+    if (!wf_cells_are_weighed(a->s)) {
+        hand_over(a, k, NULL);
+        return;
     }
-    k->count = left;
+    list_cells(a, k, &colors);
+    take_means(k, &colors);
+    hand_over(a, k, &colors.cells);
+}
+
+static void copy_sample(const wf_adaptive_samples *from, size_t n, wf_adaptive_samples *to) {
+    float **column[2][COLUMNS];
+    find_columns((wf_adaptive_samples *)from, column[0]);
+    find_columns(to, column[1]);
+    for (int c = 0; c < COLUMNS; c++) (*column[1][c])[to->count] = (*column[0][c])[n];
+    to->cell[to->count++] = from->cell[n];
+}
+
+/* Leaves out the samples of cells about the tile. */
+static void drop_about(const wf_adaptive *a, wf_adaptive_samples *k) {
+    size_t count = k->count;
+    k->count = 0;
+    for (size_t n = 0; n < count; n++)
+        if (a->cell[k->cell[n] / WF_QUARTERS].own) copy_sample(k, n, k);
+}
+
+/* Takes out the samples of cells whose edge is known, into `rest`, less what the edge says. */
+static bool part(const wf_adaptive *a, wf_adaptive_samples *k, wf_adaptive_samples *rest) {
+    size_t count = k->count;
+    k->count = rest->count = 0;
+    for (size_t n = 0; n < count; n++) {
+        double says[3];
+        if (!a->edge[k->cell[n] / WF_QUARTERS].found) {
+            copy_sample(k, n, k);
+            continue;
+        }
+        if (!wf_points_reserve(rest, 1)) return false;
+        expect(a, k, n, says);
+        for (int c = 0; c < 3; c++) k->rgb[c][n] -= (float)says[c];
+        copy_sample(k, n, rest);
+    }
+    return true;
 }
 
 /* Cells count alike, however many samples they have. */
-void wf_points_emit(const wf_adaptive *a) {
-    wf_adaptive_samples *k = &a->c->kept;
-    drop(k, a);
+bool wf_points_emit(const wf_adaptive *a) {
+    static const wf_sample_cells none = {0};
+    wf_adaptive_samples *k = &a->c->kept, *rest = &a->c->probes;
+    drop_about(a, k);
     for (size_t n = 0; n < k->count; n++)
         k->weight[n] = (float)(1.0 / (WF_QUARTERS * a->cell[k->cell[n] / WF_QUARTERS].each));
+    if (!part(a, k, rest)) return false;
+    hand_over(a, rest, &none);
     wf_points_hand_over(a, k);
+    return true;
 }

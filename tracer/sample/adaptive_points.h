@@ -7,8 +7,12 @@
  * adds their light to its sums. False: no memory. */
 bool wf_points_draw(wf_adaptive *a);
 
-/* Hands over all of a tile but cells with edges, each cell with the weight 1. */
-void wf_points_emit(const wf_adaptive *a);
+/* Adds up all cells' samples again, once edges were found or forgotten. */
+void wf_points_add_again(wf_adaptive *a);
+
+/* Hands over all samples, those of each cell with the weight 1 together; of cells with edges
+ * only what these do not say, which has no weight. False: no memory. */
+bool wf_points_emit(const wf_adaptive *a);
 
 void wf_points_free(wf_adaptive_samples *samples);
 

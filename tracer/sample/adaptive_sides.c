@@ -113,18 +113,3 @@ void wf_fit_color(const wf_side_sums *f, const double mean[3], double rgb[3][4])
         memcpy(&rgb[c][1], slope, sizeof slope);
     }
 }
-
-/* What a side's color leaves uncertain of the cell's; squared, display-encoded. Four of its
- * samples are spent on it. */
-double wf_color_error(const wf_seeking *s, const wf_seeker *e, int side, double count,
-                      double rgb[3][4]) {
-    const double *steep = s->a->cell[e->at].steep;
-    double square = 0, share = count / (double)(e->end - e->first);
-    if (!(count > 0)) return 0;
-    for (const wf_seen *v = e->first; v < e->end; v++)
-        for (int k = 0; k < 3 && v->side == side; k++) {
-            double d = (v->rgb[k] - wf_edge_color(rgb[k], v->p)) * steep[k];
-            square += d * d / 3;
-        }
-    return square / (count * fmax(count - 4, 1)) * share * share;
-}

@@ -70,10 +70,6 @@ void wf_sum_side(const wf_seeker *e, int side, wf_side_sums *sums);
  * neighbor saw. */
 void wf_fit_color(const wf_side_sums *sums, const double mean[3], double rgb[3][4]);
 
-/* What a side's color leaves uncertain of the cell's; squared, display-encoded. */
-double wf_color_error(const wf_seeking *s, const wf_seeker *e, int side, double count,
-                      double rgb[3][4]);
-
 /* Added to variances of places: in directions in which samples say little, what is fitted to
  * them stays flat. */
 #define WF_FLAT 0.01

@@ -180,9 +180,9 @@ static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bo
 
 /* What an adaptive tile leaves uncertain is noted, and counts again where the tile is used
  * again. Nothing is uncertain of background. */
-static bool adapt(wf_tile *t, int first, int end, bool empty) {
+static bool adapt(wf_tile *t, int first, int end) {
     wf_error_sum *sum = &t->c->error, before = *sum;
-    if (!wf_adaptive_tile(t, first, end, empty)) return false;
+    if (!wf_adaptive_tile(t, first, end)) return false;
     t->s->tile_error[tile_index(t, first)] =
         (wf_error_sum){sum->square - before.square, sum->cells - before.cells};
     return true;
@@ -197,8 +197,8 @@ static void recall_error(wf_tile *t, int first, int end, bool background) {
 
 /* Adaptive tiles look at what is about them, too, which then has to be still as they are. */
 static bool trace_tile(wf_tile *t, int first, int end) {
-    int rows = adapts(t->s) ? wf_adaptive_rows_about(t->s) : 0, columns = rows > 0 ? ABOUT : 0;
-    const double x[2] = {t->x0 - columns, t->x1 + columns}, y[2] = {first - rows, end + rows};
+    int about = adapts(t->s) ? wf_adaptive_about(t->s) : 0;
+    const double x[2] = {t->x0 - about, t->x1 + about}, y[2] = {first - about, end + about};
     bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y);
     t->timeless = still || (!(t->s->tau > 0) && !wf_tracer_own_widths(t->s->tracer));
     t->time = still ? STILL : t->s->unit;
@@ -209,7 +209,7 @@ static bool trace_tile(wf_tile *t, int first, int end) {
         return true;
     }
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
-    if (adapts(t->s)) return adapt(t, first, end, empty);
+    if (adapts(t->s)) return adapt(t, first, end);
     return t->s->instants ? wf_fixed_instants(t, first, end) : wf_fixed_rows(t, first, end);
 }
 

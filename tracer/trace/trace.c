@@ -75,6 +75,7 @@ wf_trace_counts wf_trace_counted(const wf_trace_scratch *s) {
 /* Of tiles that may see more parts than these no list is made: each packet looks for its own.
  */
 #define TILE_PARTS 256
+_Static_assert(WF_TRACE_PACKET == WF_PACKET, "what is told of packets is what they are");
 
 bool wf_trace_prepare(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
                       const double y[2], bool *empty) {

@@ -29,6 +29,9 @@ typedef struct wf_trace_counts {
     int64_t samples, rays, tiles, tiles_skipped;
 } wf_trace_counts;
 
+/* So many samples go together: near ones meet fewer solids. */
+#define WF_TRACE_PACKET 128
+
 /* Samples of one tile. Arrays of [count]. */
 typedef struct wf_trace_samples {
     size_t count;
