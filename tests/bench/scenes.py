@@ -37,7 +37,7 @@ class Curve:
         estimate, samples)"""
         path, report = self.render("point", "--seed", 5, *how)
         rmse, share, unsure = map(float, self.bench.text("compare", self.truth, path,
-                                                         bound).split())
+                                                         bound).split()[:3])
         return (report["seconds"]["trace"], rmse, share, unsure,
                 report["tracer"]["error_estimate"], report["tracer"]["samples"])
 
