@@ -44,6 +44,7 @@ typedef struct wf_video_info {
     bool scan_known;      /* the file or the user says how it is scanned: raster.scan is not a
                              guess */
     int64_t frames;       /* -1: not known before the end */
+    bool separate;        /* each field is a file of its own */
     wf_video_tags tags;
     wf_rational rate, aspect;  /* as the file says; {0, 0}: it does not */
     bool interlaced;           /* as the file says */

@@ -1,4 +1,4 @@
-/* Reads pictures and sequences of them as video, a frame a file. */
+/* Reads pictures and sequences of them as video, a file a frame or, of fields apart, two. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +14,10 @@ typedef struct pictures {
     wf_source_options source;
     wf_reader *reader;
     wf_image_info first;
+    int lines;        /* of a file */
+    int fields;       /* files a frame */
+    int first_parity; /* of the lines of a frame's first file: 0 top; where there are two */
+    wf_rational rate; /* of frames, where there are two */
 } pictures;
 
 static weft_status find_files(wf_video *v, weft_error *err) {
@@ -44,6 +48,30 @@ static weft_status look_at_first(wf_video *v, weft_error *err) {
     return WEFT_OK;
 }
 
+/* Files of half the lines of the raster that they name, or that is asked for, are its fields:
+ * two follow each other in time. */
+static void look_for_fields(const wf_video *v, pictures *p, int width) {
+    wf_raster named;
+    char why[256];
+    const wf_raster *r = v->options.raster;
+    if (!r && wf_raster_parse(p->first.raster, &named, why, sizeof why)) r = &named;
+    p->fields = 1;
+    if (!r || r->scan != WF_INTERLACED || r->width_px != width || r->lines != 2 * p->lines)
+        return;
+    p->fields = 2;
+    p->first_parity = wf_raster_parity(r, 0);
+    p->rate = r->frame_rate;
+}
+
+static weft_status check_pairs(const wf_video *v, weft_error *err) {
+    const pictures *p = v->state;
+    if (p->sequence.count % (size_t)p->fields == 0) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its files are fields, of which %zu do not make whole frames; complete "
+                   "the sequence",
+                   v->path, p->sequence.count);
+}
+
 static weft_status pictures_open(wf_video *v, wf_video_label *label, weft_error *err) {
     pictures *p = v->state = calloc(1, sizeof *p);
     if (!p) return wf_video_no_memory(v, err);
@@ -58,12 +86,18 @@ static weft_status pictures_open(wf_video *v, wf_video_label *label, weft_error 
     wf_video_info *info = &v->info;
     snprintf(info->format, sizeof info->format, "%s", p->first.format);
     info->width_px = p->first.display.x1 - p->first.display.x0;
-    info->lines = p->first.display.y1 - p->first.display.y0;
+    p->lines = p->first.display.y1 - p->first.display.y0;
+    look_for_fields(v, p, info->width_px);
+    status = check_pairs(v, err);
+    if (status) return status;
+    info->separate = p->fields == 2;
+    info->lines = p->fields * p->lines;
     info->layout = linear ? WF_LINEAR : WF_RGB;
     info->bits = linear ? 32 : 16;
     info->full_range = true;
-    info->frames = (int64_t)p->sequence.count;
-    *label = (wf_video_label){.rate = p->first.rate, .raster = p->first.raster};
+    info->frames = (int64_t)(p->sequence.count / (size_t)p->fields);
+    *label = (wf_video_label){.rate = info->separate ? p->rate : p->first.rate,
+                              .raster = p->first.raster};
     return WEFT_OK;
 }
 
@@ -75,15 +109,19 @@ static void pictures_close(wf_video *v) {
     free(p);
 }
 
-/* Copies the rows of the data window that lie within the display window. */
-static void take_rows(wf_video *v, const wf_image_info *info, const wf_rows *rows) {
+/* Copies the rows of the data window that lie within the display window, those of field n to
+ * every other line. */
+static void take_rows(wf_video *v, int n, const wf_image_info *info, const wf_rows *rows) {
+    const pictures *p = v->state;
+    int first = p->fields == 2 ? (p->first_parity + n) % 2 : 0;
     int left = rows->x0 > info->display.x0 ? rows->x0 : info->display.x0;
     int right = rows->x1 < info->display.x1 ? rows->x1 : info->display.x1;
     for (int c = 0; c < 3; c++)
         for (int y = rows->y0; y < rows->y1; y++) {
             if (y < info->display.y0 || y >= info->display.y1) continue;
             float *to =
-                v->frame.plane[c] + (size_t)(y - info->display.y0) * (size_t)v->info.width_px;
+                v->frame.plane[c] +
+                (size_t)((y - info->display.y0) * p->fields + first) * (size_t)v->info.width_px;
             size_t line = (size_t)(y - rows->y0) * rows->line_stride;
             for (int x = left; x < right; x++) {
                 size_t from = line + (size_t)(x - rows->x0);
@@ -95,18 +133,19 @@ static void take_rows(wf_video *v, const wf_image_info *info, const wf_rows *row
         }
 }
 
-static weft_status read_picture(wf_video *v, const wf_subframe *subframe, weft_error *err) {
+static weft_status read_picture(wf_video *v, int n, const wf_subframe *subframe,
+                                weft_error *err) {
     pictures *p = v->state;
     const wf_image_info *info = wf_subframe_info(subframe);
     size_t samples = (size_t)v->info.width_px * (size_t)v->info.lines;
-    for (int c = 0; c < 3; c++) memset(v->frame.plane[c], 0, samples * sizeof(float));
+    for (int c = 0; c < 3 && !n; c++) memset(v->frame.plane[c], 0, samples * sizeof(float));
     weft_status status = WEFT_OK;
     int step = info->band_lines > 0 ? info->band_lines : 16;
     for (int y = info->data.y0; !status && y < info->data.y1; y += step) {
         wf_rows rows;
         int end = y + step < info->data.y1 ? y + step : info->data.y1;
         status = wf_reader_rows(p->reader, subframe, y, end, &rows, err);
-        if (!status) take_rows(v, info, &rows);
+        if (!status) take_rows(v, n, info, &rows);
     }
     return status;
 }
@@ -115,24 +154,31 @@ static weft_status check_size(const wf_video *v, const char *path, const wf_imag
                               weft_error *err) {
     int width = info->display.x1 - info->display.x0,
         lines = info->display.y1 - info->display.y0;
-    if (width == v->info.width_px && lines == v->info.lines) return WEFT_OK;
+    const pictures *p = v->state;
+    if (width == v->info.width_px && lines == p->lines) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: it is %dx%d, and the pictures before it are %dx%d; the frames of one "
                    "video are of one size",
-                   path, width, lines, v->info.width_px, v->info.lines);
+                   path, width, lines, v->info.width_px, p->lines);
 }
 
-static weft_status pictures_next(wf_video *v, bool *more, weft_error *err) {
+static weft_status read_file(wf_video *v, int n, weft_error *err) {
     pictures *p = v->state;
-    *more = v->frame.index < v->info.frames;
-    if (!*more) return WEFT_OK;
-    const wf_subframe_ref *ref = &p->sequence.refs[v->frame.index];
+    const wf_subframe_ref *ref = &p->sequence.refs[v->frame.index * p->fields + n];
     wf_subframe *subframe;
     weft_status status = wf_subframe_open(ref->path, ref->part, &p->source, &subframe, err);
     if (status) return status;
     status = check_size(v, ref->path, wf_subframe_info(subframe), err);
-    if (!status) status = read_picture(v, subframe, err);
+    if (!status) status = read_picture(v, n, subframe, err);
     wf_subframe_close(subframe);
+    return status;
+}
+
+static weft_status pictures_next(wf_video *v, bool *more, weft_error *err) {
+    const pictures *p = v->state;
+    weft_status status = WEFT_OK;
+    *more = v->frame.index < v->info.frames;
+    for (int n = 0; *more && !status && n < p->fields; n++) status = read_file(v, n, err);
     return status;
 }
 

@@ -87,8 +87,8 @@ static void add_label(wf_frame_labels *l, const wf_timecode *label, wf_rational 
     l->should = should;
 }
 
-weft_status wf_frame_labels_read(const char *path, wf_rational rate, wf_frame_labels *out,
-                                 weft_error *err) {
+weft_status wf_frame_labels_read(const char *path, wf_rational rate, int fields,
+                                 wf_frame_labels *out, weft_error *err) {
     char *name = (char *)(uintptr_t)path;
     wf_sequence sequence = {0};
     *out = (wf_frame_labels){.interlace = -1};
@@ -100,7 +100,7 @@ weft_status wf_frame_labels_read(const char *path, wf_rational rate, wf_frame_la
         if (!sequence.refs[i].path) continue;
         bool has = read_label(&sequence.refs[i], rate, &label, &interlace);
         if (has && first < 0) first = (int64_t)i;
-        if (has) add_label(out, &label, rate, ((int64_t)i - first) * apart);
+        if (has) add_label(out, &label, rate, ((int64_t)i - first) / fields * apart);
         if (!out->files++) out->interlace = interlace;
         if (interlace != out->interlace) out->interlace = -1;
     }

@@ -17,9 +17,9 @@ typedef struct wf_frame_labels {
                     */
 } wf_frame_labels;
 
-/* Reads the headers of a sequence, or of a single file, at `rate` frames a second. Files that
- * cannot be read have no label. */
-weft_status wf_frame_labels_read(const char *path, wf_rational rate, wf_frame_labels *out,
-                                 weft_error *err);
+/* Reads the headers of a sequence, or of a single file, at `rate` frames a second; `fields` is
+ * how many files a frame has. Files that cannot be read have no label. */
+weft_status wf_frame_labels_read(const char *path, wf_rational rate, int fields,
+                                 wf_frame_labels *out, weft_error *err);
 
 #endif

@@ -101,7 +101,8 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     s.shared_with = wf_identities_shared(options->others, path, &s.structure);
     find_raster(&s, options->raster);
     if (!status && s.figures.info.layout != WF_YCBCR)
-        (void)wf_frame_labels_read(path, s.raster.frame_rate, &s.labels, &untold);
+        (void)wf_frame_labels_read(path, s.raster.frame_rate, s.figures.info.separate ? 2 : 1,
+                                   &s.labels, &untold);
     out->raster = s.raster;
     out->count = wf_run_checks(&s, out->finding);
     for (size_t i = 0; i < out->count; i++) out->wrong += out->finding[i].verdict == WF_WRONG;

@@ -60,7 +60,7 @@ static wf_frame_labels labels_of(const header *headers, int count, wf_rational r
     char pattern[64], path[64];
     for (int i = 0; i < count; i++) write_header(i + 1, &headers[i], rate);
     snprintf(pattern, sizeof pattern, "%s/f.####.dpx", directory);
-    if (wf_frame_labels_read(pattern, rate, &labels, &err)) fail_msg("%s", err.text);
+    if (wf_frame_labels_read(pattern, rate, 1, &labels, &err)) fail_msg("%s", err.text);
     for (int i = 0; i < count; i++) {
         path_of(path, i + 1);
         unlink(path);
