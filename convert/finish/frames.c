@@ -1,21 +1,24 @@
 /* Lines into frames, and frames into the sink. */
 #include "convert/finish/frames.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
 #include "color/codes/r103.h"
 #include "convert/base/clock.h"
 
+enum { ALPHA = 3 }; /* the plane of it */
+
 /* The planes of a frame, and what r103 has done to its lines so far. */
 typedef struct slot {
-    void *plane[3];
-    _Atomic int64_t pixels, touched, outside;
+    void *plane[4]; /* NULL: there is none */
+    _Atomic int64_t pixels, touched, outside, clipped;
 } slot;
 
 /* What a worker finishes lines with. */
 typedef struct finisher {
-    float *line;    /* [3][width]: one line of scene-linear, then of R'G'B' */
+    float *line;    /* [planes][width]: one line of scene-linear, then of R'G'B' */
     float *scratch; /* wf_encode_scratch */
 } finisher;
 
@@ -27,11 +30,13 @@ struct wf_frames {
     slot *slots;   /* frame n is in slots[n % count] */
     int count;
     finisher *finishers; /* [threads] */
-    size_t stride[3];    /* samples */
-    wf_aside writing;    /* of frame `written` */
+    int planes;
+    size_t stride[4]; /* samples */
+    wf_aside writing; /* of frame `written` */
     wf_frame written;
     double write_s;
     wf_legal_counts legal; /* of the frames written */
+    int64_t clipped;       /* pixels of them whose straight fill was above 1 */
     int64_t worst_outside; /* pixels of a frame that r103 left so: the most of all frames */
 };
 
@@ -47,7 +52,11 @@ static size_t sample_bytes(const wf_setup *s) {
 
 static size_t stride_of(const wf_setup *s, int c) {
     size_t width = (size_t)s->output_options.raster->width_px;
-    return c && s->output_options.subsampled ? width / 2 : width;
+    return c && c != ALPHA && s->output_options.subsampled ? width / 2 : width;
+}
+
+static int planes_of(const wf_setup *s) {
+    return s->output_options.alpha ? 4 : 3;
 }
 
 static size_t plane_bytes(const weft_job *job, const wf_setup *s, int c) {
@@ -63,7 +72,7 @@ static int slots_for(const weft_job *job, int fields) {
 
 size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int fields) {
     size_t bytes = 0;
-    for (int c = 0; c < 3; c++) bytes += plane_bytes(job, s, c);
+    for (int c = 0; c < planes_of(s); c++) bytes += plane_bytes(job, s, c);
     return bytes * (size_t)slots_for(job, fields);
 }
 
@@ -71,9 +80,9 @@ static bool make_planes(wf_frames *f) {
     const weft_job *job = f->crew->job;
     f->slots = calloc((size_t)f->count, sizeof *f->slots);
     bool good = f->slots;
-    for (int c = 0; c < 3; c++) f->stride[c] = stride_of(f->setup, c);
+    for (int c = 0; c < f->planes; c++) f->stride[c] = stride_of(f->setup, c);
     for (int n = 0; good && n < f->count; n++)
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < f->planes; c++) {
             f->slots[n].plane[c] = malloc(plane_bytes(job, f->setup, c));
             good = good && f->slots[n].plane[c];
         }
@@ -86,7 +95,7 @@ static bool make_finishers(wf_frames *f) {
     bool good = f->finishers;
     for (int t = 0; good && t < f->crew->threads; t++) {
         finisher *own = &f->finishers[t];
-        own->line = malloc(3 * width * sizeof *own->line);
+        own->line = malloc((size_t)f->planes * width * sizeof *own->line);
         own->scratch = malloc((1 + wf_encode_scratch(&f->setup->encoding)) * sizeof(float));
         good = own->line && own->scratch;
     }
@@ -99,6 +108,7 @@ weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_f
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for frames");
     *f = (wf_frames){.crew = crew, .setup = setup, .raster = &crew->job->raster};
     f->count = slots_for(crew->job, fields);
+    f->planes = planes_of(setup);
     if (!make_planes(f) || !make_finishers(f)) {
         wf_frames_free(f);
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
@@ -112,7 +122,7 @@ void wf_frames_free(wf_frames *f) {
     wf_aside_end(&f->writing, NULL);
     if (f->sink) f->setup->output.ops->abandon(f->sink);
     for (int n = 0; f->slots && n < f->count; n++)
-        for (int c = 0; c < 3; c++) free(f->slots[n].plane[c]);
+        for (int c = 0; c < 4; c++) free(f->slots[n].plane[c]);
     for (int t = 0; f->finishers && t < f->crew->threads; t++) {
         free(f->finishers[t].line);
         free(f->finishers[t].scratch);
@@ -147,6 +157,12 @@ void wf_frames_place(const wf_frames *f, const wf_worker *worker, int64_t field,
                                      : own + (size_t)c * (size_t)f->raster->width_px;
 }
 
+float *wf_frames_alpha(const wf_frames *f, const wf_worker *worker, int64_t field, int line) {
+    if (f->planes <= ALPHA) return NULL;
+    if (is_linear(f->setup)) return frame_line(f, field, ALPHA, line);
+    return f->finishers[worker->number].line + (size_t)ALPHA * (size_t)f->raster->width_px;
+}
+
 /* R'G'B' to codes: chroma, legal colors and quantizing. */
 static void encode(wf_frames *f, const wf_worker *worker, int64_t field, int line,
                    float *const rgb[3]) {
@@ -172,16 +188,40 @@ static void clip_below(const wf_setup *s, float *const rgb[3], size_t width) {
         for (size_t x = 0; x < width; x++) rgb[c][x] = rgb[c][x] > low ? rgb[c][x] : low;
 }
 
+/* Light that is straight: of what lies there, whatever part of the pixel it covers. */
+static void divide_by_alpha(float *const rgb[3], const float *alpha, size_t width) {
+    for (int c = 0; c < 3; c++)
+        for (size_t x = 0; x < width; x++)
+            rgb[c][x] = alpha[x] > 1e-6f ? rgb[c][x] / alpha[x] : 0;
+}
+
+/* Encoded color and alpha as the law of fill and key has them, and the codes of alpha, which
+ * are of full range. */
+static void finish_alpha(wf_frames *f, int64_t field, int line, float *const rgba[4],
+                         size_t width) {
+    const wf_setup *s = f->setup;
+    int most = (1 << s->output_options.bits) - 1;
+    uint16_t *code = frame_line(f, field, ALPHA, line);
+    wf_key_line(s->key_law, rgba, width);
+    if (s->output_options.straight && s->key_law == WF_KEY_ENCODED)
+        slot_of(f, field)->clipped += (int64_t)wf_key_straighten(rgba, width);
+    for (size_t x = 0; x < width; x++) code[x] = (uint16_t)lrintf(rgba[ALPHA][x] * (float)most);
+}
+
 void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
     const wf_transform *transform = &f->setup->transform;
     float *rgb[3];
     double start = wf_now_s();
     wf_frames_place(f, worker, field, line, rgb);
     size_t width = (size_t)f->raster->width_px;
+    float *alpha = is_linear(f->setup) ? NULL : wf_frames_alpha(f, worker, field, line);
+    bool divided = f->setup->output_options.straight && f->setup->key_law == WF_KEY_LIGHT;
+    if (alpha && divided) divide_by_alpha(rgb, alpha, width);
     if (transform->apply) {
         transform->apply(transform->self, rgb[0], rgb[1], rgb[2], width);
         clip_below(f->setup, rgb, width);
     }
+    if (alpha) finish_alpha(f, field, line, (float *[]){rgb[0], rgb[1], rgb[2], alpha}, width);
     if (!is_linear(f->setup)) encode(f, worker, field, line, rgb);
     worker->color_s += wf_now_s() - start;
 }
@@ -198,6 +238,7 @@ static void count_legal(wf_frames *f, slot *frame) {
     f->legal.pixels += atomic_exchange(&frame->pixels, 0);
     f->legal.touched += atomic_exchange(&frame->touched, 0);
     f->legal.outside += outside;
+    f->clipped += atomic_exchange(&frame->clipped, 0);
     if (outside > f->worst_outside) f->worst_outside = outside;
 }
 
@@ -214,7 +255,7 @@ weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
     weft_status status = wf_aside_end(&f->writing, err);
     if (status) return status;
     f->written = (wf_frame){.index = index};
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < f->planes; c++) {
         f->written.plane[c] = from->plane[c];
         f->written.stride[c] = f->stride[c];
     }
@@ -234,11 +275,21 @@ weft_status wf_frames_commit(wf_frames *f, weft_error *err) {
     return status;
 }
 
+static void tell_alpha(const wf_frames *f, double pixels, wf_report *report) {
+    const wf_setup *s = f->setup;
+    if (!s->output_options.alpha) return;
+    report->fill = s->output_options.straight ? "straight" : "premultiplied";
+    report->key_law = s->key_law == WF_KEY_ENCODED ? "encoded" : "light";
+    if (f->crew->done)
+        report->fill_clipped_share = (double)f->clipped / pixels / (double)f->crew->done;
+}
+
 void wf_frames_tell(const wf_frames *f, wf_report *report) {
     double pixels = (double)f->raster->width_px * f->raster->lines;
     report->write_s = f->write_s;
     report->legal.counts = f->legal;
     report->legal.worst_share = (double)f->worst_outside / pixels;
+    tell_alpha(f, pixels, report);
 }
 
 /* ---- Which frames ---- */

@@ -22,6 +22,9 @@ size_t wf_frames_bytes(const weft_job *job, const wf_setup *setup, int fields);
  * worker has one line in hand at a time. */
 void wf_frames_place(const wf_frames *frames, const wf_worker *worker, int64_t field, int line,
                      float *rgb[3]);
+/* The same for its alpha: width_px samples; NULL where none is written. */
+float *wf_frames_alpha(const wf_frames *frames, const wf_worker *worker, int64_t field,
+                       int line);
 void wf_frames_line(wf_frames *frames, wf_worker *worker, int64_t field, int line);
 
 /* Opens the sink; hands it frame `index`, whose lines are all there, and tells progress: it is

@@ -64,6 +64,31 @@ static weft_status check_files(const weft_job *job, const wf_output_kind *kind,
     return WEFT_OK;
 }
 
+/* OpenEXR and PNG say once for all how color lies beside alpha; for other kinds it is
+ * premultiplied unless asked otherwise. */
+static wf_fill fill_of(const weft_job *job, const wf_output_kind *kind) {
+    if (job->fill) return job->fill;
+    return kind->fills & 1u << WF_FILL_PREMULTIPLIED ? WF_FILL_PREMULTIPLIED : WF_FILL_STRAIGHT;
+}
+
+static weft_status check_alpha(const weft_job *job, const wf_output_kind *kind,
+                               weft_error *err) {
+    if (!job->alpha_out || kind->fills & 1u << fill_of(job, kind)) {
+        bool lit = kind->layout == WF_LINEAR && job->key_law == WF_KEY_CHOICE_ENCODED;
+        return lit ? wf_fail(err, WEFT_USAGE,
+                             "%s: %s holds light; --key-law encoded is for codes", job->output,
+                             kind->name)
+                   : WEFT_OK;
+    }
+    if (!kind->fills)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: %s holds no alpha; --alpha-out is for .exr, .png, .tif and .dpx",
+                       job->output, kind->name);
+    return wf_fail(err, WEFT_USAGE,
+                   "%s: beside alpha, color in %s is always %s; leave out --fill", job->output,
+                   kind->name, job->fill == WF_FILL_STRAIGHT ? "premultiplied" : "straight");
+}
+
 static void tell_changes(const weft_job *job, const wf_setup *s) {
     char text[512] = "";
     if (s->output.ops->tell) s->output.ops->tell(&s->output_options, text, sizeof text);
@@ -82,6 +107,8 @@ static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full)
         .bits = s->output.kind->layout == WF_LINEAR ? 32 : bits,
         .full_range = full,
         .subsampled = s->output.kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
+        .alpha = job->alpha_out,
+        .straight = job->alpha_out && fill_of(job, s->output.kind) == WF_FILL_STRAIGHT,
         .separate_fields = job->separate_fields,
         .stream_header = job->chunk == 1,
         .chunked = job->chunk_count > 1,
@@ -118,7 +145,9 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     bool full = job->range == WF_RANGE_UNSET ? kind->full_range : job->range == WF_RANGE_FULL;
     weft_status status = check_codes(job, kind, bits, err);
     if (!status) status = check_files(job, kind, err);
+    if (!status) status = check_alpha(job, kind, err);
     if (status) return status;
+    s->key_law = job->key_law == WF_KEY_CHOICE_ENCODED ? WF_KEY_ENCODED : WF_KEY_LIGHT;
     describe_sink(job, s, bits, full);
     describe_codes(job, s, bits, full);
     if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);

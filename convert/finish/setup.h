@@ -2,6 +2,7 @@
 #define WF_CONVERT_FINISH_SETUP_H
 
 #include "color/codes/encode.h"
+#include "color/codes/key_law.h"
 #include "color/space/transform.h"
 #include "convert/job/job.h"
 #include "convert/job/report.h"
@@ -34,6 +35,7 @@ typedef struct wf_setup {
     wf_transform decode;             /* what --from encodes becomes light before it is summed;
                                         apply is NULL where the input is taken as it is */
     wf_transform transform;          /* apply is NULL where colors are left alone */
+    wf_key_law key_law;              /* where alpha is written */
     wf_encoding encoding;            /* where codes are written */
     wf_display *display;             /* the encoding's, for luma-adjust; else NULL */
 } wf_setup;

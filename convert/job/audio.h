@@ -26,9 +26,9 @@ typedef struct wf_audio {
     const char *offset; /* in the text; NULL: 0 */
 } wf_audio;
 
-/* "none", "copy", "silent:N", "tone:N" with N from 1 to WF_SOUND_TRACKS, or a file's name, which
- * has an ending or begins with '/' or "./", with or without ":OFFSET" behind it. NULL is none.
- * False if it is nothing of these. */
+/* "none", "copy", "silent:N", "tone:N" with N from 1 to WF_SOUND_TRACKS, or a file's name,
+ * which has an ending or begins with '/' or "./", with or without ":OFFSET" behind it. NULL is
+ * none. False if it is nothing of these. */
 bool wf_audio_parse(const char *text, wf_audio *out);
 
 /* "1.5", "-2", "01:02.25", "01:00:00.5", or with frames of frame_rate "01:00:00:12" and

@@ -16,6 +16,16 @@ typedef enum wf_code_range { WF_RANGE_UNSET, WF_RANGE_NARROW, WF_RANGE_FULL } wf
 typedef enum wf_cadence { WF_CADENCE_NONE, WF_CADENCE_2_3 } wf_cadence;
 
 typedef enum wf_command { WF_CONVERT, WF_RENDER, WF_TRACE } wf_command;
+/* The law of fill and key (color/codes/key_law.h); UNSET: the output's. */
+typedef enum wf_key_choice {
+    WF_KEY_CHOICE_UNSET,
+    WF_KEY_CHOICE_LIGHT,
+    WF_KEY_CHOICE_ENCODED
+} wf_key_choice;
+
+/* Color that is written beside alpha; UNSET: as the output has it. */
+typedef enum wf_fill { WF_FILL_UNSET, WF_FILL_PREMULTIPLIED, WF_FILL_STRAIGHT } wf_fill;
+
 /* How color and alpha are stored. UNSET: as the file says; of a picture: it has no alpha. */
 typedef enum wf_alpha {
     WF_ALPHA_UNSET,

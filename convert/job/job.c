@@ -123,11 +123,33 @@ void wf_job_settle(weft_job *job) {
     job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
 }
 
+typedef struct rule {
+    bool wrong;
+    const char *says;
+} rule;
+
+static weft_status check_rules(const rule *rules, size_t count, weft_error *err) {
+    for (size_t i = 0; i < count; i++)
+        if (rules[i].wrong) return wf_fail(err, WEFT_USAGE, "%s", rules[i].says);
+    return WEFT_OK;
+}
+
+static weft_status check_alpha(const weft_job *job, weft_error *err) {
+    const float *behind = job->background;
+    const rule rules[] = {
+        {job->alpha_out && job->command != WF_CONVERT,
+         "--alpha-out is for convert: alpha of scenes is not traced"},
+        {job->alpha_out && (behind[0] != 0 || behind[1] != 0 || behind[2] != 0),
+         "--alpha-out leaves what is behind the pictures open, and --background fills it; give "
+         "one of them"},
+        {(job->fill || job->key_law) && !job->alpha_out,
+         "--fill and --key-law tell what is written beside alpha; give --alpha-out too"},
+    };
+    return check_rules(rules, sizeof rules / sizeof *rules, err);
+}
+
 weft_status wf_job_check(const weft_job *job, weft_error *err) {
-    const struct {
-        bool wrong;
-        const char *says;
-    } rules[] = {
+    const rule rules[] = {
         {!job->input_count && job->command != WF_CONVERT,
          "no scene; give one, such as examples/scenes/carousel.lua"},
         {job->input_count > 1 && job->command != WF_CONVERT,
@@ -157,8 +179,8 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
         {job->resume && job->output && !strcmp(job->output, "-"),
          "--resume: standard output cannot be resumed; write to a file"},
     };
-    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
-        if (rules[i].wrong) return wf_fail(err, WEFT_USAGE, "%s", rules[i].says);
-    weft_status status = check_cadence(job, err);
+    weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
+    if (!status) status = check_alpha(job, err);
+    if (!status) status = check_cadence(job, err);
     return status ? status : check_timecode(job, err);
 }

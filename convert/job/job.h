@@ -39,10 +39,13 @@ struct weft_job {
 
     char *ocio, *from, *to, *display, *view, *look;
     wf_rational exposure; /* stops */
-    int bits; /* 0: the output's default */
+    int bits;             /* 0: the output's default */
     wf_code_range range;
     wf_chroma chroma;
     wf_legalize legalize;
+    bool alpha_out; /* alpha is written, and nothing lies behind the pictures */
+    wf_fill fill;
+    wf_key_choice key_law;
     wf_dither dither;
 
     wf_sampler_kind sampler;

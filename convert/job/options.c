@@ -162,6 +162,18 @@ static const wf_option_row rows[] = {
         "and luma.",
         set_choice, AT(legalize), INITIAL),
 
+    ROW(codes, VIDEO, "alpha-out", NULL, NULL,
+        "Write alpha beside the picture, where the output holds it; nothing lies behind it "
+        "then.",
+        set_flag, AT(alpha_out)),
+    ROW(codes, VIDEO, "fill", "premultiplied|straight", "the output's",
+        "Whether color that is written beside alpha is multiplied by it.", set_choice, AT(fill),
+        .base = WF_FILL_PREMULTIPLIED),
+    ROW(codes, VIDEO, "key-law", "light|encoded", "the output's",
+        "What alpha is for: to be laid over light, or over encoded video, as mixers do it; "
+        "encoded is as near to light as they can come.",
+        set_choice, AT(key_law), .base = WF_KEY_CHOICE_LIGHT),
+
     ROW(files, VIDEO, "codec", "NAME", "the container's",
         "What .mov, .mp4, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, h264 and "
         "others; a "

@@ -24,6 +24,8 @@ typedef struct wf_output_kind {
     bool joins;      /* chunks of it can be joined by cat, or are files of their own */
     bool fixed_422;  /* 4:2:2 is the only sampling it takes */
     bool container;  /* holds sound beside the picture */
+    unsigned
+        fills; /* 1u << wf_fill for each way that color may lie beside alpha; 0: no alpha */
 } wf_output_kind;
 
 /* Sound beside the picture, as a sink takes it: frame after frame from its first on, so many
@@ -45,6 +47,8 @@ typedef struct wf_output_options {
     int bits; /* of the codes; 32 for WF_LINEAR */
     bool full_range;
     bool subsampled;                    /* 4:2:2; false: 4:4:4 */
+    bool alpha;                         /* frames have a plane of it */
+    bool straight;                      /* and color is not multiplied by it */
     int64_t first_frame;                /* of this chunk of the run */
     int64_t frame_count;                /* -1: not known before the end */
     bool separate_fields;               /* sequences: a file a field */

@@ -70,6 +70,16 @@ static void add_tracer(wf_json *json, const wf_report *report) {
     wf_json_close(json);
 }
 
+static void add_alpha(wf_json *json, const wf_report *report) {
+    wf_json_open(json, "alpha", '{');
+    if (report->fill) {
+        wf_json_text(json, "fill", report->fill);
+        wf_json_text(json, "law", report->key_law);
+        wf_json_real(json, "clipped_share", report->fill_clipped_share);
+    }
+    wf_json_close(json);
+}
+
 static void add_legal(wf_json *json, const wf_report_legal *legal) {
     wf_json_open(json, "legal", '{');
     if (legal->legalize) {
@@ -123,6 +133,7 @@ char *wf_report_json(const wf_report *report) {
     add_input(&json, report);
     add_tracer(&json, report);
     add_legal(&json, &report->legal);
+    add_alpha(&json, report);
     add_seconds(&json, report);
     wf_json_int(&json, "peak_memory_bytes", peak ? peak : wf_peak_memory_bytes());
     wf_json_bool(&json, "degraded", report->degraded);

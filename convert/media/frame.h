@@ -4,11 +4,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One finished frame, both fields woven, top line first. Planes are R G B or Y Cb Cr, each line
- * stride[p] samples after the last. Codes are uint16_t, WF_LINEAR is float. */
+/* One finished frame, both fields woven, top line first. Planes are R G B or Y Cb Cr and alpha,
+ * which is NULL where the output has none, each line stride[p] samples after the last. Codes
+ * are uint16_t, WF_LINEAR is float. */
 typedef struct wf_frame {
-    const void *plane[3];
-    size_t stride[3];
+    const void *plane[4];
+    size_t stride[4];
     int64_t index; /* from 0 in the whole run, chunk or not */
 } wf_frame;
 

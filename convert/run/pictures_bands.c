@@ -156,6 +156,8 @@ void wf_pictures_finish_line(wf_run *run, wf_worker *worker, const wf_field *fie
     double start = wf_now_s();
     wf_frames_place(run->frames, worker, index, line, rgb);
     wf_field_line(field, line, p->scratch[worker->number], rgb);
+    float *alpha = wf_frames_alpha(run->frames, worker, index, line);
+    if (alpha) wf_field_alpha(field, p->scratch[worker->number], alpha);
     worker->resample_s += wf_now_s() - start;
     wf_frames_line(run->frames, worker, index, line);
 }

@@ -11,6 +11,7 @@
 #include "convert/base/module.h"
 #include "convert/base/outfile.h"
 #include "convert/base/pattern.h"
+#include "convert/job/choices.h"
 #include "convert/job/colors.h"
 #include "convert/job/timecode.h"
 #include "convert/media/oiio/oiio.h"
@@ -153,7 +154,9 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
     }
     if (wf_ratio_given(o->subframe_rate))
         picture.time_s = wf_ratio_div(wf_ratio(frame->index, 1), o->subframe_rate);
-    for (int c = 0; c < 3; c++) {
+    picture.channels = o->alpha ? 4 : 3;
+    picture.straight = o->straight;
+    for (int c = 0; c < picture.channels; c++) {
         picture.plane[c] = frame->plane[c];
         picture.line_stride[c] = frame->stride[c];
     }
@@ -165,7 +168,7 @@ static void take_field(const wf_sink *s, int n, wf_oiio_picture *p) {
     const wf_raster *raster = s->options.raster;
     int parity = wf_raster_parity(raster, n);
     size_t bytes = p->bits == 32 ? sizeof(float) : sizeof(uint16_t);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < p->channels; c++) {
         p->plane[c] = (const char *)p->plane[c] + (size_t)parity * p->line_stride[c] * bytes;
         p->line_stride[c] *= 2;
     }
@@ -208,8 +211,8 @@ static void abandon(wf_sink *s) {
  * bits are packed and the line filled to words, 8 and 16 bits are stored as they are.
  * Headers have 8192 bytes. */
 static int64_t dpx_line_bytes(const wf_output_options *o) {
-    int64_t samples = 3 * (int64_t)o->raster->width_px;
-    if (o->bits == 10) return samples / 3 * 4;
+    int64_t samples = (o->alpha ? 4 : 3) * (int64_t)o->raster->width_px;
+    if (o->bits == 10) return (samples + 2) / 3 * 4;
     return o->bits == 12 ? (samples * 12 + 31) / 32 * 4 : samples * o->bits / 8;
 }
 
@@ -221,7 +224,8 @@ static wf_sink_size dpx_size(const wf_output_options *o, int64_t frames) {
 /* The other formats compress: a file takes no more than its samples and a header. */
 static wf_sink_size compressed_size(const wf_output_options *o, int64_t frames) {
     int64_t sample = o->bits == 32 ? 4 : o->bits > 8 ? 2 : 1;
-    int64_t picture = 3 * (int64_t)o->raster->width_px * o->raster->lines * sample;
+    int64_t pixel = (o->alpha ? 4 : 3) * sample;
+    int64_t picture = pixel * o->raster->width_px * o->raster->lines;
     return (wf_sink_size){frames * (4096 * wf_output_files(o) + picture), WF_SIZE_MOST};
 }
 
@@ -237,12 +241,14 @@ PICTURES(tiff, "tiff")
 PICTURES(png, "png")
 
 #define BITS(n) (1u << (n))
+#define EITHER  (BITS(WF_FILL_PREMULTIPLIED) | BITS(WF_FILL_STRAIGHT))
 
 static const wf_output_kind exr_kind = {
     .name = "OpenEXR",
     .endings = "exr",
     .help = "float R G B, scene-linear unless --to says otherwise",
     .layout = WF_LINEAR,
+    .fills = BITS(WF_FILL_PREMULTIPLIED), /* OpenEXR */
     .default_bits = 32,
     .full_range = true,
     .sequence = true,
@@ -262,6 +268,7 @@ static const wf_output_kind dpx_kind = {
     .endings = "dpx",
     .help = "R'G'B' with interlace elements and time code",
     .layout = WF_RGB,
+    .fills = EITHER,
     .bits_mask = BITS(8) | BITS(10) | BITS(12) | BITS(16),
     .default_bits = 10,
     .full_range = true,
@@ -282,6 +289,7 @@ static const wf_output_kind tiff_kind = {
     .endings = "tif tiff",
     .help = "R'G'B'",
     .layout = WF_RGB,
+    .fills = EITHER,
     .bits_mask = BITS(8) | BITS(16),
     .default_bits = 16,
     .full_range = true,
@@ -302,6 +310,7 @@ static const wf_output_kind png_kind = {
     .endings = "png",
     .help = "R'G'B'",
     .layout = WF_RGB,
+    .fills = BITS(WF_FILL_STRAIGHT), /* ISO 15948 */
     .bits_mask = BITS(8) | BITS(16),
     .default_bits = 16,
     .full_range = true,

@@ -110,14 +110,25 @@ static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
     add_totals(f, taps, kernel, s);
 }
 
+/* The weighted sum of alpha at pixel i, of all that exists there. */
+static double alpha_sum(const wf_resampler *rs, const wf_scratch *s, int i) {
+    size_t run = wf_run_length(rs), phase = (size_t)(3 * rs->phases + i % rs->phases);
+    return rs->desc.channels == 4 ? s->picture[phase * run + (size_t)(i / rs->phases)]
+                                  : s->inside[i];
+}
+
+void wf_field_alpha(const wf_field *f, const wf_scratch *s, float *alpha) {
+    for (int i = 0; i < f->rs->x.pixels; i++)
+        alpha[i] = (float)(alpha_sum(f->rs, s, i) * s->exists[i]);
+}
+
 /* Lays the light over the background, whose share is what the input neither covers nor makes
  * opaque. exists holds reciprocals here. */
 static void add_background(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
     size_t run = wf_run_length(rs), samples = (size_t)rs->phases * run;
     for (int i = 0; i < rs->x.pixels; i++) {
         size_t at = (size_t)(i % rs->phases) * run + (size_t)(i / rs->phases);
-        double alpha = rs->desc.channels == 4 ? s->picture[3 * samples + at] : s->inside[i];
-        double clear = 1 - alpha * s->exists[i];
+        double clear = 1 - alpha_sum(rs, s, i) * s->exists[i];
         for (int c = 0; c < 3; c++) {
             double light = s->picture[(size_t)c * samples + at] * s->exists[i];
             rgb[c][i] = (float)(light + clear * (double)rs->desc.background[c]);

@@ -121,4 +121,9 @@ bool wf_field_complete(const wf_field *field);
  * scene-linear R, G, B, width_px samples each, over the background. */
 void wf_field_line(const wf_field *field, int line, wf_scratch *scratch, float *const rgb[3]);
 
+/* Alpha of the line that wf_field_line has just made with this scratch, seen through the same
+ * weights: what inputs without alpha cover is 1, what nothing covers is 0. width_px samples,
+ * which leave 0 .. 1 where weights are negative. */
+void wf_field_alpha(const wf_field *field, const wf_scratch *scratch, float *alpha);
+
 #endif

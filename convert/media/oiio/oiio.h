@@ -22,11 +22,14 @@ typedef weft_status wf_oiio_probe_fn(const char *path, int part, size_t max_memo
 typedef weft_status wf_oiio_read_fn(const char *path, int part, const int *channel, int count,
                                     const wf_box *data, float *planes, weft_error *err);
 
-/* A picture to be written whole: R G B planes, line_stride[c] samples from line to line. */
+/* A picture to be written whole: R G B planes and, of four channels, alpha, line_stride[c]
+ * samples from line to line. */
 typedef struct wf_oiio_picture {
     const char *format; /* "openexr", "dpx", "tiff", "png" */
-    const void *plane[3];
-    size_t line_stride[3];
+    int channels;       /* 3, 4 */
+    bool straight;      /* color is not multiplied by alpha */
+    const void *plane[4];
+    size_t line_stride[4];
     int width_px, lines;
     bool full_range;          /* codes reach from 0 to the highest */
     int bits;                 /* 8, 10, 12, 16: uint16_t codes; 32: float samples */

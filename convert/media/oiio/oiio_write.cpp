@@ -225,7 +225,8 @@ ImageSpec spec_of(const wf_oiio_picture &p) {
     const TypeDesc type = p.bits == 32  ? TypeDesc::FLOAT
                           : p.bits == 8 ? TypeDesc::UINT8
                                         : TypeDesc::UINT16;
-    ImageSpec spec(p.width_px, p.lines, 3, type);
+    ImageSpec spec(p.width_px, p.lines, p.channels, type);
+    if (p.channels == 4 && p.straight) spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("Software", "weft " WEFT_VERSION);
     spec.attribute("DateTime", ""); // or the writer's clock: equal frames are to be equal files
     spec.attribute("Orientation", 1);
@@ -256,13 +257,14 @@ struct Floats {
 
 template <typename From, typename Kind>
 bool write_lines(ImageOutput &out, const wf_oiio_picture &p) {
-    std::vector<typename Kind::type> line(3 * size_t(p.width_px));
+    const size_t channels = size_t(p.channels);
+    std::vector<typename Kind::type> line(channels * size_t(p.width_px));
     for (int y = 0; y < p.lines; y++) {
-        for (size_t c = 0; c < 3; c++) {
+        for (size_t c = 0; c < channels; c++) {
             const From *from =
                 static_cast<const From *>(p.plane[c]) + size_t(y) * p.line_stride[c];
             for (size_t x = 0; x < size_t(p.width_px); x++)
-                line[3 * x + c] = Kind::convert(from[x], p.bits);
+                line[channels * x + c] = Kind::convert(from[x], p.bits);
         }
         if (!out.write_scanline(y, 0, out.spec().format, line.data())) return false;
     }

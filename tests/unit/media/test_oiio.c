@@ -106,6 +106,7 @@ static void make(const char *name, const char *format, int bits) {
     static uint16_t code[3][WIDTH * LINES];
     static float linear[3][WIDTH * LINES];
     wf_oiio_picture p = {.format = format,
+                         .channels = 3,
                          .width_px = WIDTH,
                          .lines = LINES,
                          .bits = bits,
