@@ -260,6 +260,7 @@ static weft_status trace_file(tracing *t, const char *path, int64_t frame, int64
         status = wf_deep_writer_new(path, &job->raster, wf_scene_space(t->run),
                                     job->overwrite || job->resume, &t->file, err);
     if (status) return status;
+    wf_crew_part(crew, 0, 1);
     wf_crew_in_order(crew, (job->raster.lines + WF_TRACE_ROWS - 1) / WF_TRACE_ROWS, make_band,
                      write_band, t);
     status = wf_crew_status(crew, err);

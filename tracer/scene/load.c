@@ -147,7 +147,7 @@ static void explain(const wf_builder *b, const char *path, char *why, size_t why
         snprintf(why + used, why_size - (size_t)used, " (%zu MB; --scene-memory allows more)",
                  b->sandbox.memory >> 20);
     for (char *c = why; *c; c++)
-        if (*c == '\n') *c = ' ';
+        if ((unsigned char)*c < ' ') *c = *c == '\n' ? ' ' : '?';
     if (is_text) add_hint(lua, message, why, why_size);
 }
 

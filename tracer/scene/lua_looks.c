@@ -22,6 +22,16 @@ typedef struct look {
     bool unlit;
 } look;
 
+/* Keys that say nothing without another. */
+static void advise_material(lua_State *lua, const wf_material *m) {
+    wf_advise_color(lua, "material", m->color, !m->unlit);
+    if (!(m->refract > 0) && wf_has_key(lua, 2, "index"))
+        wf_scene_warn(lua, "material",
+                      "index= bends what refract= lets through: write refract=1");
+    if (!(m->specular > 0) && wf_has_key(lua, 2, "shininess"))
+        wf_scene_warn(lua, "material", "shininess= is of the highlight that specular= gives");
+}
+
 static int call_material(lua_State *lua) {
     static const wf_lua_key keys[] = {
         {"color", WF_KEY_COLOR, offsetof(look, color), false},
@@ -57,7 +67,7 @@ static int call_material(lua_State *lua) {
                 "texture must be checker{..}, stripe{..}, zoneplate{..} or image{..}");
         m.texture = *texture;
     }
-    wf_advise_color(lua, "material", m.color, !m.unlit);
+    advise_material(lua, &m);
     *(wf_material *)wf_list_grow(lua, &b->materials, sizeof m, 1) = m;
     return wf_wrap_node(lua, WF_NODE_MATERIAL, (int)b->materials.count - 1, "material");
 }

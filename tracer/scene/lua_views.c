@@ -41,6 +41,8 @@ static int call_camera(lua_State *lua) {
         wf_scene_error(lua, "camera", "fov is the vertical angle in degrees, below 180, not %g",
                        f.fov);
     if (!(f.fov > 0)) f.fov = 42;
+    if (b->camera_node >= 0)
+        wf_scene_warn(lua, "camera", "there is one already, which this takes the place of");
     wf_camera *c = &b->scene->camera;
     *c = (wf_camera){.eye = f.eye, .orthographic = f.ortho_height > 0, .op = -1};
     c->forward = toward(lua, "camera", f.eye, f.look_at, "eye and look_at are one point");
@@ -104,6 +106,10 @@ static int call_light(lua_State *lua) {
                       .op = -1,
                       .shadows = f.shadows};
     aim_light(lua, &f, &light);
+    if (light.kind != WF_LIGHT_SPOT &&
+        (wf_has_key(lua, 1, "inner") || wf_has_key(lua, 1, "outer")))
+        wf_scene_warn(lua, "light",
+                      "inner= and outer= are of spots, which have point= and look_at=");
     wf_advise_color(lua, "light", f.color, false);
     *(wf_light *)wf_list_grow(lua, &b->lights, sizeof light, 1) = light;
     int node = wf_node_new(

@@ -71,6 +71,7 @@ static wf_medium medium_of(const wf_tracer *t, const wf_part *part, double *stac
         const wf_solid *solid = &scene->solids[step->count];
         const wf_material *m = &scene->materials[solid->material];
         stack[top++] = solid_volume(scene, solid);
+        t->lets_light[part->object] |= m->refract > 0;
         if (m->refract > 0 && !medium.clear)
             medium = (wf_medium){.index = m->index, .clear = true};
         t->object_of[step->count] = part->object;
@@ -90,7 +91,8 @@ bool wf_glass_judge(wf_tracer *t) {
     double *stack = malloc(((size_t)t->most_stack + 1) * sizeof *stack);
     t->media = malloc(((size_t)t->part_count + 1) * sizeof *t->media);
     t->object_of = malloc(((size_t)t->scene->solid_count + 1) * sizeof *t->object_of);
-    bool good = stack && t->media && t->object_of;
+    t->lets_light = calloc((size_t)t->scene->object_count + 1, sizeof *t->lets_light);
+    bool good = stack && t->media && t->object_of && t->lets_light;
     for (int n = 0; good && n < t->part_count; n++)
         t->media[n] = medium_of(t, &t->parts[n], stack);
     free(stack);
@@ -100,6 +102,7 @@ bool wf_glass_judge(wf_tracer *t) {
 void wf_glass_free(wf_tracer *t) {
     free(t->media);
     free(t->object_of);
+    free(t->lets_light);
 }
 
 /* ---- What a place is filled with ---- */

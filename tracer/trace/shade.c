@@ -147,15 +147,15 @@ static bool let_through(const shading *h, double far, const int *lane, uint8_t *
     const wf_packet *packet = &h->l->shadow;
     int blocked[WF_PACKET], count = 0;
     double tint[3][WF_PACKET];
-    for (int k = 0; h->t->media && k < packet->rays.count; k++)
-        if (dark[k]) blocked[count++] = k;
+    for (int k = 0; k < packet->rays.count; k++)
+        if (dark[k] == WF_SHADOW_CLEAR) blocked[count++] = k;
     if (!count) return true;
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < WF_PACKET; i++) out->tint[c][i] = tint[c][i] = 1;
     if (!wf_glass_light(h->t, h->s, packet, blocked, count, far, dark, tint)) return false;
     for (int n = 0; n < count; n++) {
         int k = blocked[n];
-        out->tinted |= !dark[k];
+        out->tinted |= dark[k] == WF_SHADOW_NONE;
         for (int c = 0; c < 3; c++) out->tint[c][lane[k]] = tint[c][k];
     }
     return true;
@@ -182,7 +182,7 @@ static bool cast_shadows(const shading *h, const wf_light *light, const wf_point
     if (!wf_shadow(h->t, h->s, &l->shadow, far, dark) || !let_through(h, far, lane, dark, out))
         return false;
     for (int k = 0; k < lanes; k++)
-        if (dark[k]) share[lane[k]] = 0;
+        if (dark[k] != WF_SHADOW_NONE) share[lane[k]] = 0;
     return true;
 }
 

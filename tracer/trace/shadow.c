@@ -6,6 +6,11 @@
 #include "tracer/trace/nearest.h"
 #include "tracer/trace/seek.h"
 
+static uint8_t kind_of(const wf_tracer *t, int64_t solid) {
+    if (solid < 0) return WF_SHADOW_NONE;
+    return t->media && t->lets_light[t->object_of[solid]] ? WF_SHADOW_CLEAR : WF_SHADOW_OPAQUE;
+}
+
 bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet, double far,
                uint8_t *dark) {
     wf_hits hits;
@@ -18,6 +23,6 @@ bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
         return false;
     bool good = few ? wf_nearest(t, s, packet, &s->shadow, false, &hits)
                     : wf_seek(t, s, packet, WF_SEEK_ANY, &hits);
-    for (int i = 0; i < packet->rays.count; i++) dark[i] = hits.solid[i] >= 0;
+    for (int i = 0; i < packet->rays.count; i++) dark[i] = kind_of(t, hits.solid[i]);
     return good;
 }

@@ -9,6 +9,7 @@
 #include "tracer/trace/nearest.h"
 #include "tracer/trace/seek.h"
 #include "tracer/trace/shade.h"
+#include "tracer/trace/shadow.h"
 
 /* How many clear objects a ray may be within at once, and still know which. */
 #define MOST_WITHIN 16
@@ -107,7 +108,7 @@ static bool step(passage *p) {
     if (!meet(p) || !wf_surfaces_of(p->t, p->s, p->l, &p->surface, p->off)) return false;
     for (int k = 0; k < p->l->packet.rays.count; k++) {
         if (p->l->hits.solid[k] < 0)
-            p->dark[p->lane[k]] = 0;
+            p->dark[p->lane[k]] = WF_SHADOW_NONE;
         else if (pass(p, k)) {
             go_on(p, k);
             kept[count++] = k;

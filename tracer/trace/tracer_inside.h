@@ -36,6 +36,7 @@ struct wf_tracer {
                   */
     wf_medium *media; /* [part]; NULL: nothing is clear */
     int *object_of;   /* [solid], where something is clear */
+    bool *lets_light; /* [object], where something is clear: a solid of it is */
     int part_count, most_stack;
     bool own_widths, lights_move, all_still;
 

@@ -75,6 +75,10 @@ static const struct {
     {SCENE "background{135, 206, 235}", "test.lua:3: background: colors count"},
     {CAMERA "light{point={1, 9, 1}, color={255, 255, 255}} add(sphere{})",
      "light: colors count"},
+    {SCENE CAMERA, "test.lua:3: camera: there is one already"},
+    {SCENE "light{point={0, 9, 0}, inner=10}", "test.lua:3: light: inner= and outer= are of"},
+    {VIEW "add(sphere{}:material{index=1.3})", "test.lua:2: material: index= bends what"},
+    {VIEW "add(sphere{}:material{shininess=9})", "material: shininess= is of the highlight"},
     {CAMERA "add(sphere{})", "light: there is none, and nothing is unlit; light{point="},
     {VIEW, "nothing is in the picture; add(sphere{})"},
     {SCENE "local x = param.m", "--set: the scene does not read param.n; it reads m"},
@@ -123,6 +127,7 @@ static const struct {
     {VIEW "add(sphere{}:color{1, 0, 0})", "did you mean material{color=..}?"},
     {VIEW "add(sphere{}:move{1, 0, 0})", "did you mean translate?"},
     {VIEW "print(math.sqr(1))", "did you mean sqrt?"},
+    {VIEW "error('bell \\7')", "bell ?"},
 };
 
 static void errors_say_what_was_meant(void **state) {
@@ -142,6 +147,8 @@ static const char *const clean[] = {
     SCENE,
     VIEW "local s = sphere{} for i = 1, 3 do add(s:translate{i, 0, 0}) end",
     VIEW "local s = sphere{} - box{min={0, 0, 0}, max={1, 1, 1}} add(s:spin{rpm=3})",
+    VIEW "add(sphere{}:material{refract=1, index=1.3, specular=.5, shininess=9})",
+    CAMERA "light{point={0, 9, 0}, look_at={0, 0, 0}, inner=10} add(sphere{})",
     CAMERA "light{point={1, 2, 3}}:spin{rpm=3} add(sphere{})",
     CAMERA "add(sphere{}:material{unlit=true, color={20, 18, 15}})",
     CAMERA "add(sphere{}:material{ambient=1})",
