@@ -27,11 +27,11 @@ into()
         sound tracks "$name" four.wav 0 $samples "$bits"
 }
 for row in "v210 525i a.mov" "v210 48x36@25i b.mov" "prores 625i c.mov" "prores-hq 525i d.mov" "dnxhd 720p50 e.mov" \
-    "dnxhr 256x144@25p f.mov" "xdcamhd422 720p59.94 g.mov" "dvcpro50 525i-dv h.mov" "avci100 720p50 i.mov" \
+    "dnxhr 256x144@25p f.mov" "xdcamhd422 720p59.94 g.mov" "dvcpro50 525i-dv h.mov" "avci100 720p50 i.mov" "h264 64x48@25i t.mov" \
     "xdcamhd422 720p50 j.mxf" "xdcamhd422 1080i59.94 k.mxf" "dnxhd 720p59.94 l.mxf" "dvcpro50 625i-dv m.mxf" \
     "dvcpro50 525i-dv n.mxf" "avci100 720p59.94 o.mxf" "v210 525i p.mxf" "uyvy 48x36@25p q.mxf" \
     "ffv1 525i r.mkv" "ffv1 625i s.mkv"; do
-    [[ $row == avci100* ]] && ! ffmpeg -v error -encoders | grep -q libx264 && { skip_part "no libx264"; continue; }
+    [[ $row == avci100* || $row == h264* ]] && ! ffmpeg -v error -encoders | grep -q libx264 && { skip_part "no libx264"; continue; }
     # shellcheck disable=SC2086
     check "four tracks: $row" into $row 4 1 24
 done
@@ -41,6 +41,8 @@ for row in "v210 64x48@29.97p a.mov 32" "v210 64x48@25p a.mov 16" "ffv1 64x48@29
     set -- $row
     check "bits: $row" into "$1" "$2" "$3" 4 1 "$4"
 done
+check "MP4 has none" exits 2 weft convert v25.mkv --raster 64x48@25i --audio tone:2 -o no.mp4
+check "and says what does" says "or write .mov"
 check "D-10 has one stream of four" into imx50 625i d10.mxf 1 4 24
 check "at 29.97 too" into imx50 525i-imx d10.mxf 1 4 24
 finish
