@@ -22,9 +22,10 @@ bool wf_glass_bend(const wf_tracer *tracer, wf_trace_scratch *scratch, wf_trace_
                    bool *changed);
 
 /* Light that comes straight through clear solids, which are not seen to bend it: follows rays
- * of a packet, those of lanes[0 .. count - 1], to s = far. dark[lane] is set to 0 where nothing
- * opaque is met, and tint[3][WF_PACKET] to the product of refract times color of all solids on
- * the way, each once. Forgets what has been carried. False: no memory. */
+ * of a packet, those of lanes[0 .. count - 1], to s = far. dark[lane] becomes WF_SHADOW_NONE
+ * (`shadow.h`) where nothing opaque is met, and tint[3][WF_PACKET] the product of refract times
+ * color of all solids on the way, each once. Forgets what has been carried. False: no memory.
+ */
 bool wf_glass_light(const wf_tracer *tracer, wf_trace_scratch *scratch, const wf_packet *packet,
                     const int *lanes, int count, double far, uint8_t *dark,
                     double tint[3][WF_PACKET]);
