@@ -18,7 +18,9 @@
 #define SURE        1.5       /* the mean's own deviations that a lean has to exceed */
 #define NEAR        0.04      /* of 1: ratios nearer to it tell no order */
 #define AGREE       (2.0 / 3) /* of the votes are for one order, or it is open */
-#define DIVIDED     0.1       /* of all distances: so many votes show that there is an order */
+#define ONE_INSTANT                                                                            \
+    0.5 /* fields of a frame that differ by less than this times those of two are of one */
+#define DIVIDED     0.1 /* of all distances: so many votes show that there is an order */
 #define REPEATED    0.1 /* a field that changes by less than this times the other is repeated */
 #define CADENCE     5   /* frames in which 2:3 repeats one field of each parity */
 #define PAIRS_LEAST 5   /* of frames, for a cadence to show */
@@ -224,7 +226,8 @@ static void confirm(const order *o, const wf_distances *d, wf_figures *figures) 
     bool divided = whole && all > DIVIDED * votes.all && d->within >= WEAVES / 2 * nearer;
     if (!ordered && !divided) return;
     figures->order_agreement = all > 0 ? agreeing / all : NAN;
-    if (divided || !agreed || fabs(log(figures->order_ratio)) < NEAR)
+    bool of_one_instant = d->within < ONE_INSTANT * nearer; /* what leans is its detail */
+    if (divided || !agreed || of_one_instant || fabs(log(figures->order_ratio)) < NEAR)
         figures->order_verdict = "open";
 }
 

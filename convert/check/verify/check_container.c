@@ -123,7 +123,6 @@ wf_verdict wf_check_heard(const wf_subject *s, wf_finding *f) {
     char is[96];
     const wf_structure *t = &s->structure;
     bool right = !t->sound_disabled && t->sound_grouped < 2;
-    if (!t->sound_tracks) return wf_open_question(f, "it does not say");
     snprintf(is, sizeof is, "of %d tracks of sound %d are disabled and %d in a group",
              t->sound_tracks, t->sound_disabled, t->sound_grouped);
     if (!right && !s->profile) return wf_open_question(f, is);

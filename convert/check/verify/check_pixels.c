@@ -12,7 +12,7 @@ wf_verdict wf_check_order(const wf_subject *s, wf_finding *f) {
     bool fields = s->raster.scan == WF_INTERLACED;
     if (!is) return wf_open_question(f, "a single frame has none");
     bool ordered = !strcmp(is, "tff") || !strcmp(is, "bff");
-    if (!ordered && fields) return wf_open_question(f, is);
+    if (!strcmp(is, "open") || (!ordered && fields)) return wf_open_question(f, is);
     bool right = fields ? !strcmp(is, s->raster.top_first ? "tff" : "bff") : !ordered;
     return wf_say(f, right, is, fields ? (s->raster.top_first ? "tff" : "bff") : "progressive");
 }

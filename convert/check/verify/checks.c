@@ -26,6 +26,7 @@ enum {
     STRUCTURE = 256, /* its container is one whose structure is read */
     CODEC = 512,     /* it is the profile's */
     IDENTITY = 1024, /* its container names its material */
+    TRACKS = 2048,   /* it says which of its tracks of sound are heard */
 };
 
 /* Whether every file is put to a check, or only where the profile has a text, a number or a
@@ -94,7 +95,7 @@ static const struct check {
     {"sound codec", wf_check_sound_codec, SOUND, TEXT(sound_codec), "%s"},
     {"mono",       wf_check_mono,       SOUND, FLAG(mono), "%s"},
     {"one stream", wf_check_one_sound,  SOUND, FLAG(one_sound), "%s"},
-    {"heard",      wf_check_heard,      STRUCTURE | SOUND, ALL, "QuickTime File Format, RFC 9559"},
+    {"heard",      wf_check_heard,      TRACKS, ALL, "QuickTime File Format, RFC 9559"},
     {"levels",     wf_check_levels,     PIXELS, ALL, "EBU R 103"},
     {"reserved",   wf_check_reserved,   PIXELS, ALL, "Rec. ITU-R BT.601 and BT.709"},
     {"not checked", wf_check_not,       ALWAYS, TEXT(not_checked), "%s"},
@@ -115,7 +116,7 @@ static unsigned nature_of(const wf_subject *s) {
            (s->contained ? CONTAINER : 0) | (mov ? MOV : 0) | (mxf ? MXF : 0) |
            (s->contained && s->metadata.sound_streams ? SOUND : 0) |
            (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0) |
-           (of_profile ? CODEC : 0) |
+           (of_profile ? CODEC : 0) | (s->structure.sound_tracks ? TRACKS : 0) |
            (mxf || !strcmp(s->metadata.container, "matroska") ? IDENTITY : 0);
 }
 
