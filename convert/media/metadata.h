@@ -11,6 +11,7 @@ typedef struct wf_contents {
     int64_t least_bytes, most_bytes; /* of a packet */
     int64_t fields;      /* that the packets are shown for: two of a frame, repeated ones too */
     int64_t lone_fields; /* packets of a single field */
+    int64_t hidden;      /* packets that an edit list leaves out */
     int64_t repeated;    /* packets that are shown for more than two */
     bool types_known;
     int64_t whole, between, longest_group; /* I and B pictures; from one I to the next */

@@ -64,6 +64,10 @@ fi
 
 # ---- Containers of others ----
 
+ff -i t.y4m "${dvd[@]}" -bf 0 -aspect 4:3 whole.mp4 && ff -ss 0.1 -i whole.mp4 -c copy trimmed.mp4
+check "pictures that an edit list leaves out" found trimmed.mp4 "" "timecode"
+check "are not missed" grep -q '"is": "6 said, 3 there"' out
+
 ff -i h.y4m -c:v dnxhd -b:v 120M -pix_fmt yuv422p "${fields[@]}" -f mxf_opatom atom.mxf
 check "OP-Atom" found atom.mxf "" "pattern"
 check "is not for a profile" found atom.mxf "colors pattern" "" --profile dnxhd-1080i50

@@ -58,10 +58,11 @@ wf_verdict wf_check_base(const wf_subject *s, wf_finding *f) {
     return wf_say(f, base == want && (!drop || may_drop), is, should);
 }
 
-/* Frames that so many make which the container counts: it may count fields, or frames that show
- * repeated ones. */
+/* Frames that so many make which the container counts: it may count fields, frames that show
+ * repeated ones, and those that an edit list leaves out. */
 static double frames_of(const wf_subject *s, double said) {
     const wf_contents *there = &s->metadata.there;
+    said -= (double)there->hidden;
     if (there->lone_fields && there->lone_fields == there->packets) return said / 2;
     bool shown = there->repeated && fabs(said - (double)there->fields / 2) < 1;
     return shown ? (double)s->figures.frames : said;
@@ -89,9 +90,10 @@ wf_verdict wf_check_sound(const wf_subject *s, wf_finding *f) {
     char is[96], should[96];
     const wf_metadata *c = &s->metadata;
     double video_s = wf_picture_s(s), there_s = c->there.sound_least_s;
-    bool right = c->sound_rate == 48000 && fits(s, c->sound_s, video_s) &&
+    double stated_s = c->there.hidden ? 0 : c->sound_s; /* with what an edit list leaves out */
+    bool right = c->sound_rate == 48000 && fits(s, stated_s, video_s) &&
                  fits(s, there_s, video_s) && fits(s, c->there.sound_most_s, video_s) &&
-                 (!(c->sound_s > 0) || fits(s, there_s, c->sound_s));
+                 (!(stated_s > 0) || fits(s, there_s, stated_s));
     bool other = fits(s, there_s, video_s);
     snprintf(is, sizeof is, "%d channels of %d Hz, %.3f s", c->sound_channels, c->sound_rate,
              !other || !(c->sound_s > 0) ? there_s : c->sound_s);

@@ -36,10 +36,14 @@ double wf_picture_s(const wf_subject *s) {
 static double astray(const wf_subject *s, const wf_stated *stated) {
     double there_s = wf_picture_s(s), sound_s = s->metadata.there.sound_most_s;
     double block_s = s->metadata.there.sound_block_s;
+    double frame_s = 1 / wf_ratio_value(s->figures.info.raster.frame_rate);
+    double hidden_s = (double)s->metadata.there.hidden * frame_s;
+    if (!strcmp(stated->of, "mdhd")) there_s += hidden_s; /* before the edit list */
     double far_s = fabs(stated->seconds - there_s);
     if (stated->of_all && sound_s > there_s)
         far_s = fmax(there_s - stated->seconds, stated->seconds - sound_s) - block_s;
-    return far_s - stated->tick_s;
+    /* An edit list may begin within a frame. */
+    return far_s - stated->tick_s - (hidden_s > 0 ? frame_s / 2 : 0);
 }
 
 wf_verdict wf_check_durations(const wf_subject *s, wf_finding *f) {

@@ -65,6 +65,7 @@ static void count_picture(counting *c, const AVPacket *p) {
     int fields = fields_of(c, p, &type);
     t->fields += fields;
     t->lone_fields += fields == 1;
+    t->hidden += (p->flags & AV_PKT_FLAG_DISCARD) != 0;
     t->repeated += fields > 2;
     t->bytes += p->size;
     if (!t->packets || p->size < t->least_bytes) t->least_bytes = p->size;
@@ -79,7 +80,7 @@ static void count_sound(counting *c, const AVPacket *p) {
     sound_length *s = &c->sound[p->stream_index];
     double seconds =
         (double)p->duration * av_q2d(c->format->streams[p->stream_index]->time_base);
-    if (!(seconds > 0)) return;
+    if (!(seconds > 0) || p->flags & AV_PKT_FLAG_DISCARD) return;
     s->seconds += seconds;
     if (seconds > s->longest_s) s->longest_s = seconds;
 }
