@@ -178,6 +178,14 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
                                         "what is not there; give one of them"},
         {job->resume && job->output && !strcmp(job->output, "-"),
          "--resume: standard output cannot be resumed; write to a file"},
+        {job->alpha_out && job->command != WF_CONVERT,
+         "--alpha-out is for convert: alpha of scenes is not traced"},
+        {job->alpha_out &&
+             (job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0),
+         "--alpha-out leaves what is behind the pictures open, and --background fills it; give "
+         "one of them"},
+        {(job->fill || job->key_law) && !job->alpha_out,
+         "--fill and --key-law tell what is written beside alpha; give --alpha-out too"},
     };
     weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
     if (!status) status = check_alpha(job, err);
