@@ -20,9 +20,17 @@ static int list_bits(unsigned mask, char *text, size_t size) {
     return used;
 }
 
+static wf_chroma chroma_of(const weft_job *job, const wf_output_kind *kind) {
+    return kind->fixed_444 ? WF_CHROMA_444 : job->chroma;
+}
+
+static bool is_subsampled(const weft_job *job, const wf_output_kind *kind) {
+    return kind->layout == WF_YCBCR && chroma_of(job, kind) != WF_CHROMA_444;
+}
+
 static weft_status check_codes(const weft_job *job, const wf_output_kind *kind, int bits,
                                weft_error *err) {
-    bool subsampled = kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444;
+    bool subsampled = is_subsampled(job, kind);
     if (kind->layout != WF_LINEAR && !(kind->bits_mask & 1u << bits)) {
         char there[64];
         list_bits(kind->bits_mask, there, sizeof there);
@@ -82,7 +90,8 @@ static weft_status check_alpha(const weft_job *job, const wf_output_kind *kind,
     }
     if (!kind->fills)
         return wf_fail(err, WEFT_USAGE,
-                       "%s: %s holds no alpha; --alpha-out is for .exr, .png, .tif and .dpx",
+                       "%s: %s holds no alpha; --alpha-out is for .exr, .png, .tif, .dpx, "
+                       ".mov (--codec prores-4444) and .mkv",
                        job->output, kind->name);
     return wf_fail(err, WEFT_USAGE,
                    "%s: beside alpha, color in %s is always %s; leave out --fill", job->output,
@@ -106,7 +115,7 @@ static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full)
         .layout = s->output.kind->layout,
         .bits = s->output.kind->layout == WF_LINEAR ? 32 : bits,
         .full_range = full,
-        .subsampled = s->output.kind->layout == WF_YCBCR && job->chroma != WF_CHROMA_444,
+        .subsampled = is_subsampled(job, s->output.kind),
         .alpha = job->alpha_out,
         .straight = job->alpha_out && fill_of(job, s->output.kind) == WF_FILL_STRAIGHT,
         .separate_fields = job->separate_fields,
@@ -126,7 +135,7 @@ static void describe_codes(const weft_job *job, wf_setup *s, int bits, bool full
     const wf_colors *colors = wf_colors_of(job->raster.matrix);
     s->encoding = (wf_encoding){
         .luma = colors->luma,
-        .chroma = job->chroma,
+        .chroma = chroma_of(job, s->output.kind),
         .legalize = job->legalize,
         .dither = job->dither,
         .ycbcr = s->output.kind->layout == WF_YCBCR,
@@ -147,7 +156,6 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     if (!status) status = check_files(job, kind, err);
     if (!status) status = check_alpha(job, kind, err);
     if (status) return status;
-    s->key_law = job->key_law == WF_KEY_CHOICE_ENCODED ? WF_KEY_ENCODED : WF_KEY_LIGHT;
     describe_sink(job, s, bits, full);
     describe_codes(job, s, bits, full);
     if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);
@@ -161,9 +169,38 @@ static void settle_matrix(wf_setup *s) {
     s->encoding.luma = wf_colors_of(s->raster.matrix)->luma;
 }
 
+/* Spaces without a name of weft's are shown as the raster's own. */
+static bool is_bt1886(const char *space) {
+    char why[900];
+    const wf_space *found = wf_space_find(space, why, sizeof why);
+    return !found || found->curve == &wf_curve_bt1886;
+}
+
+/* Video is for mixers, which lay codes over codes; pictures and light are not. */
+static weft_status settle_law(const weft_job *job, wf_setup *s, weft_error *err) {
+    bool mixed = s->output.kind->container && s->output.kind->layout != WF_LINEAR;
+    bool asked = job->key_law == WF_KEY_CHOICE_ENCODED;
+    bool encoded = asked || (!job->key_law && mixed);
+    bool known = is_bt1886(s->color_space);
+    s->key_law = encoded && known ? WF_KEY_ENCODED : WF_KEY_LIGHT;
+    if (!job->alpha_out || !encoded || known) return WEFT_OK;
+    if (asked)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--key-law encoded is worked out for the curve of BT.1886, and codes are "
+            "in %s; take light",
+            s->color_space);
+    wf_job_warn(job,
+                "%s: alpha is by the law of light; that of mixers is worked out for the curve "
+                "of BT.1886, and codes are in %s",
+                job->output, s->color_space);
+    return WEFT_OK;
+}
+
 weft_status wf_setup_output(const weft_job *job, wf_setup *s, weft_error *err) {
     weft_status status = settle_sink(job, s, err);
     if (!status) status = wf_setup_color(job, s, err);
+    if (!status) status = settle_law(job, s, err);
     settle_matrix(s);
     return status ? status : wf_setup_display(job, s, err);
 }

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "convert/job/audio.h"
+#include "convert/job/choices.h"
 #include "filters/base/spelling.h"
 
 /* ---- Rasters of the codecs ---- */
@@ -103,6 +104,9 @@ static const wf_delivery_form h264_forms[] = {
              .container = true},                                                               \
     .muxer = "mxf", .sound_bytes = BITS(2) | BITS(3), .full_range = true
 #define FORMS(list) .forms = (list), .form_count = COUNT(list)
+/* Neither codec says how color lies beside alpha; QuickTime can. */
+#define ALPHA(bits)                                                                            \
+    .kind.fills = BITS(WF_FILL_PREMULTIPLIED) | BITS(WF_FILL_STRAIGHT), .alpha_bits = (bits)
 
 #define V210   .encoder = "v210", FORMS(any_raster)
 #define PRORES .encoder = "prores_ks", FORMS(any_raster)
@@ -141,6 +145,9 @@ static const wf_delivery rows[] = {
      .encoder_options = "profile=standard:vendor=apl0"},
     {KIND("prores-hq", "mov", "ProRes 422 HQ", BITS(10), 10, true), MOV, PRORES,
      .encoder_options = "profile=hq:vendor=apl0"},
+    {KIND("prores-4444", "mov", "ProRes 4444, with alpha of 16 bits", BITS(10), 10, false), MOV,
+     PRORES, .encoder_options = "profile=4444:vendor=apl0:alpha_bits=16",
+     .kind.fixed_444 = true, ALPHA(BITS(10))},
     {KIND("dnxhd", "mov", "DNxHD, 185 to 440 Mb/s of 10 bits, 120 to 290 of 8",
           BITS(8) | BITS(10), 10, true),
      MOV, DNXHD},
@@ -167,7 +174,7 @@ static const wf_delivery rows[] = {
 
     {KIND("ffv1", "mkv", "FFV1, lossless", BITS(8) | BITS(10) | BITS(12) | BITS(16), 10, false),
      MKV, .encoder = "ffv1", .encoder_options = "level=3:slices=4:slicecrc=1:g=1",
-     FORMS(any_raster), .full_range = true},
+     FORMS(any_raster), .full_range = true, ALPHA(BITS(8) | BITS(10) | BITS(16))},
 };
 
 #define ROWS COUNT(rows)

@@ -46,6 +46,7 @@ typedef struct wf_delivery {
     bool constant;         /* bit rate */
     int threads;           /* where another number makes other bytes; 0: any */
     bool full_range;       /* is told to the reader, and so can be had */
+    unsigned alpha_bits;   /* 1u << bits for each depth that has alpha; 0: none */
 } wf_delivery;
 
 /* By index, the default of each container first; NULL past the end. */

@@ -23,6 +23,7 @@ typedef struct wf_output_kind {
     bool sequence;   /* one file a frame, named by a pattern */
     bool joins;      /* chunks of it can be joined by cat, or are files of their own */
     bool fixed_422;  /* 4:2:2 is the only sampling it takes */
+    bool fixed_444;  /* 4:4:4 is */
     bool container;  /* holds sound beside the picture */
     unsigned
         fills; /* 1u << wf_fill for each way that color may lie beside alpha; 0: no alpha */

@@ -13,6 +13,7 @@ typedef struct wf_container_facts {
     wf_color_tags tags;
     const char *compressor; /* QuickTime: the codec in words, at most 31 bytes; NULL: none */
     uint8_t identity[16];   /* a hash of all that was written: whose numbers the file gets */
+    bool alpha, straight;   /* there is alpha; color beside it is not multiplied by it */
 } wf_container_facts;
 
 #endif

@@ -186,6 +186,12 @@ static void put_heard(uint8_t *tkhd, size_t bytes) {
     wf_put_big_endian(tkhd + group, 0, 2);
 }
 
+/* How the picture is laid over others, in its vmhd: 0x100 by straight alpha, 0x102 by alpha
+ * that is multiplied already, over black (QuickTime File Format, Graphics Modes). */
+static void put_graphics_mode(uint8_t *vmhd, const wf_container_facts *facts) {
+    if (facts->alpha) wf_put_big_endian(vmhd + 12, facts->straight ? 0x100 : 0x102, 2);
+}
+
 static bool holds(const atoms *a, const char *type, size_t at, size_t end) {
     for (size_t bytes; (bytes = atom_bytes(a, at, end)); at += bytes)
         if (is(a->from + at, type)) return true;
@@ -218,6 +224,7 @@ static void copy_atom(atoms *a, size_t at, size_t end) {
         if (is(atom, "tkhd")) put_heard(a->to + start, end - at);
         if (is(atom, "clef") && end - at == 20 && a->quicktime)
             put_shown(a->to + start, a->facts->raster);
+        if (is(atom, "vmhd") && end - at == 20) put_graphics_mode(a->to + start, a->facts);
     }
     wf_put_big_endian(a->to + start, (uint32_t)(a->used - start), 4);
 }

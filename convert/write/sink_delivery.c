@@ -27,6 +27,10 @@ static weft_status check(const wf_output_options *o, weft_error *err) {
         return wf_fail(err, WEFT_USAGE,
                        "%.500s: readers take %s for narrow range; leave out --range full",
                        o->output, d->kind.name);
+    if (o->alpha && !(d->alpha_bits & 1u << o->bits))
+        return wf_fail(err, WEFT_USAGE,
+                       "%.500s: the encoder of %s has alpha of 8, 10 and 16 bits, not %d",
+                       o->output, d->kind.name, o->bits);
     if (!wf_delivery_form_for(d, o, err)) return WEFT_USAGE;
     weft_status status = wf_delivery_check_sound(d, o, err);
     if (status || wf_module_built("libav")) return status;

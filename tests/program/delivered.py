@@ -133,7 +133,7 @@ def main():
     same("ffprobe's complaint", said.strip(), "")
     video = [s for s in probed["streams"] if s["codec_type"] == "video"][0]
     sound = [s for s in probed["streams"] if s["codec_type"] == "audio"]
-    names = {"prores-hq": "prores", "dnxhr": "dnxhd", "xdcamhd422": "mpeg2video", "imx50": "mpeg2video",
+    names = {"prores-hq": "prores", "prores-4444": "prores", "dnxhr": "dnxhd", "xdcamhd422": "mpeg2video", "imx50": "mpeg2video",
              "dvcpro50": "dvvideo", "avci100": "h264"}
     same("codec", video["codec_name"], names.get(codec, codec))
     same("size", (video["width"], video["height"]), (width, coded))
@@ -186,8 +186,8 @@ def main():
         same("commercial name", seen.get("Format_Commercial_IfAny"), {"avci100": "AVC-Intra 100", "xdcamhd422": "XDCAM HD422"}[codec])
     if codec == "dnxhd":
         same("commercial name", (seen.get("Format_Commercial_IfAny") or "")[:5], "DNxHD")
-    if codec in ("prores", "prores-hq"):
-        same("profile", seen.get("Format_Profile"), {"prores": "422", "prores-hq": "422 HQ"}[codec])
+    if codec.startswith("prores"):
+        same("profile", seen.get("Format_Profile"), {"prores": "422", "prores-hq": "422 HQ", "prores-4444": "4444"}[codec])
     if codec in ("xdcamhd422", "imx50"):
         same("profile", seen.get("Format_Profile"), "4:2:2")
         same("level", seen.get("Format_Level"), "High" if codec == "xdcamhd422" else "Main")
@@ -198,7 +198,7 @@ def main():
         data = file.read()
     if ending == "mov":
         atoms = mov_atoms(data)
-        tag = {"v210": ("v210",), "prores": ("apcn",), "prores-hq": ("apch",), "dnxhd": ("AVdn",), "dnxhr": ("AVdh",),
+        tag = {"v210": ("v210",), "prores": ("apcn",), "prores-hq": ("apch",), "prores-4444": ("ap4h",), "dnxhd": ("AVdn",), "dnxhr": ("AVdh",),
                "dvcpro50": ("dv5p" if lines == 576 else "dv5n",)}.get(codec)
         if tag:
             same("tag", atoms.get("tag"), *tag)

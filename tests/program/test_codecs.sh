@@ -27,6 +27,7 @@ END
 is_sanitized || cat >>matrix <<'END'
 wide.mov v210 625i-dv-wide
 hq.mov prores-hq 525i-imx
+4444.mov prores-4444 625i
 dnxhd.mov dnxhd 1080i50
 dnxhd8.mov dnxhd 720p50 --bits 8
 dnxhr.mov dnxhr 1080p23.976

@@ -76,10 +76,11 @@ static enum AVPixelFormat pixels_of(const wf_writing *w) {
     const wf_output_options *o = &w->options;
     char name[32];
     const char *sampling = w->form->folds_chroma ? "420" : o->subsampled ? "422" : "444";
+    const char *planes = o->alpha ? "yuva" : "yuv";
     if (o->bits == 8)
-        snprintf(name, sizeof name, "yuv%sp", sampling);
+        snprintf(name, sizeof name, "%s%sp", planes, sampling);
     else
-        snprintf(name, sizeof name, "yuv%sp%d", sampling, o->bits);
+        snprintf(name, sizeof name, "%s%sp%d", planes, sampling, o->bits);
     return av_get_pix_fmt(name);
 }
 
@@ -270,25 +271,30 @@ static void fold_chroma(const wf_writing *w, const wf_frame *frame, int p) {
     }
 }
 
-static void take_frame(const wf_writing *w, const wf_frame *frame) {
+static bool is_chroma(int plane) {
+    return plane == 1 || plane == 2;
+}
+
+static void take_plane(const wf_writing *w, const wf_frame *frame, int p) {
     const wf_output_options *o = &w->options;
-    for (int p = 0; p < 3; p++) {
-        if (p && w->form->folds_chroma) {
-            fold_chroma(w, frame, p);
-            continue;
-        }
-        int width = p && o->subsampled ? w->raster.width_px / 2 : w->raster.width_px;
-        for (int y = 0; y < w->raster.lines; y++) {
-            uint8_t *to = w->frame->data[p] + (ptrdiff_t)y * w->frame->linesize[p];
-            int from = y - w->form->above_lines + w->form->skip_lines;
-            if (y < w->form->above_lines)
-                put_black(to, p, width, o);
-            else
-                put_line(to,
-                         (const uint16_t *)frame->plane[p] + (size_t)from * frame->stride[p],
-                         width, o->bits > 8);
-        }
+    int width = is_chroma(p) && o->subsampled ? w->raster.width_px / 2 : w->raster.width_px;
+    for (int y = 0; y < w->raster.lines; y++) {
+        uint8_t *to = w->frame->data[p] + (ptrdiff_t)y * w->frame->linesize[p];
+        int from = y - w->form->above_lines + w->form->skip_lines;
+        if (y < w->form->above_lines)
+            put_black(to, p, width, o);
+        else
+            put_line(to, (const uint16_t *)frame->plane[p] + (size_t)from * frame->stride[p],
+                     width, o->bits > 8);
     }
+}
+
+static void take_frame(const wf_writing *w, const wf_frame *frame) {
+    for (int p = 0; p < (w->options.alpha ? 4 : 3); p++)
+        if (is_chroma(p) && w->form->folds_chroma)
+            fold_chroma(w, frame, p);
+        else
+            take_plane(w, frame, p);
 }
 
 /* Hands the encoder a frame, or none at the end, and the file what comes of it. */
@@ -364,6 +370,8 @@ static weft_status complete(wf_writing *w, weft_error *err) {
         .raster = &w->raster,
         .tags = w->tags,
         .compressor = wf_delivery_quicktime(w->delivery, &w->raster).name,
+        .alpha = w->options.alpha,
+        .straight = w->options.straight,
     };
     XXH128_canonicalFromHash((XXH128_canonical_t *)(void *)facts.identity,
                              XXH3_128bits_digest(w->hash));
