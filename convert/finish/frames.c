@@ -7,18 +7,20 @@
 
 #include "color/codes/r103.h"
 #include "convert/base/clock.h"
+#include "convert/finish/key.h"
 
 enum { ALPHA = 3 }; /* the plane of it */
 
 /* The planes of a frame, and what r103 has done to its lines so far. */
 typedef struct slot {
     void *plane[4]; /* NULL: there is none */
+    void *key;      /* NULL: there is none */
     _Atomic int64_t pixels, touched, outside, clipped;
 } slot;
 
 /* What a worker finishes lines with. */
 typedef struct finisher {
-    float *line;    /* [planes][width]: one line of scene-linear, then of R'G'B' */
+    float *line;    /* [4][width]: one line of scene-linear and alpha, then of R'G'B' and K */
     float *scratch; /* wf_encode_scratch */
 } finisher;
 
@@ -26,14 +28,15 @@ struct wf_frames {
     wf_crew *crew;
     const wf_setup *setup;
     const wf_raster *raster;
-    wf_sink *sink; /* NULL: not open */
-    slot *slots;   /* frame n is in slots[n % count] */
+    wf_outputs outputs;
+    slot *slots; /* frame n is in slots[n % count] */
     int count;
     finisher *finishers; /* [threads] */
     int planes;
     size_t stride[4]; /* samples */
-    wf_aside writing; /* of frame `written` */
+    wf_aside writing; /* of frame `written`, whose key is written_key */
     wf_frame written;
+    const void *written_key;
     double write_s;
     wf_legal_counts legal; /* of the frames written */
     int64_t clipped;       /* pixels of them whose straight fill was above 1 */
@@ -63,6 +66,10 @@ static size_t plane_bytes(const weft_job *job, const wf_setup *s, int c) {
     return stride_of(s, c) * (size_t)job->raster.lines * sample_bytes(s);
 }
 
+static size_t key_bytes(const weft_job *job, const wf_setup *s) {
+    return (size_t)job->raster.width_px * (size_t)job->raster.lines * wf_key_sample_bytes(s);
+}
+
 /* Fields may be finished in any order, the first may belong to a frame begun before, and the
  * frame before that may still be written. */
 static int slots_for(const weft_job *job, int fields) {
@@ -71,7 +78,7 @@ static int slots_for(const weft_job *job, int fields) {
 }
 
 size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int fields) {
-    size_t bytes = 0;
+    size_t bytes = key_bytes(job, s);
     for (int c = 0; c < planes_of(s); c++) bytes += plane_bytes(job, s, c);
     return bytes * (size_t)slots_for(job, fields);
 }
@@ -81,11 +88,15 @@ static bool make_planes(wf_frames *f) {
     f->slots = calloc((size_t)f->count, sizeof *f->slots);
     bool good = f->slots;
     for (int c = 0; c < f->planes; c++) f->stride[c] = stride_of(f->setup, c);
-    for (int n = 0; good && n < f->count; n++)
+    size_t key = key_bytes(job, f->setup);
+    for (int n = 0; good && n < f->count; n++) {
         for (int c = 0; c < f->planes; c++) {
             f->slots[n].plane[c] = malloc(plane_bytes(job, f->setup, c));
             good = good && f->slots[n].plane[c];
         }
+        if (key) f->slots[n].key = malloc(key);
+        good = good && (!key || f->slots[n].key);
+    }
     return good;
 }
 
@@ -95,7 +106,7 @@ static bool make_finishers(wf_frames *f) {
     bool good = f->finishers;
     for (int t = 0; good && t < f->crew->threads; t++) {
         finisher *own = &f->finishers[t];
-        own->line = malloc((size_t)f->planes * width * sizeof *own->line);
+        own->line = malloc((ALPHA + 1) * width * sizeof *own->line);
         own->scratch = malloc((1 + wf_encode_scratch(&f->setup->encoding)) * sizeof(float));
         good = own->line && own->scratch;
     }
@@ -120,9 +131,11 @@ weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_f
 void wf_frames_free(wf_frames *f) {
     if (!f) return;
     wf_aside_end(&f->writing, NULL);
-    if (f->sink) f->setup->output.ops->abandon(f->sink);
-    for (int n = 0; f->slots && n < f->count; n++)
+    wf_outputs_close(f->setup, &f->outputs);
+    for (int n = 0; f->slots && n < f->count; n++) {
         for (int c = 0; c < 4; c++) free(f->slots[n].plane[c]);
+        free(f->slots[n].key);
+    }
     for (int t = 0; f->finishers && t < f->crew->threads; t++) {
         free(f->finishers[t].line);
         free(f->finishers[t].scratch);
@@ -158,8 +171,8 @@ void wf_frames_place(const wf_frames *f, const wf_worker *worker, int64_t field,
 }
 
 float *wf_frames_alpha(const wf_frames *f, const wf_worker *worker, int64_t field, int line) {
-    if (f->planes <= ALPHA) return NULL;
-    if (is_linear(f->setup)) return frame_line(f, field, ALPHA, line);
+    if (!wf_job_writes_alpha(f->crew->job)) return NULL;
+    if (is_linear(f->setup) && f->planes > ALPHA) return frame_line(f, field, ALPHA, line);
     return f->finishers[worker->number].line + (size_t)ALPHA * (size_t)f->raster->width_px;
 }
 
@@ -195,16 +208,25 @@ static void divide_by_alpha(float *const rgb[3], const float *alpha, size_t widt
             rgb[c][x] = alpha[x] > 1e-6f ? rgb[c][x] / alpha[x] : 0;
 }
 
+/* A line of the key, where there is one. */
+static void put_key(const wf_frames *f, int64_t field, int line, const float *k) {
+    size_t width = (size_t)f->raster->width_px, sample = wf_key_sample_bytes(f->setup);
+    size_t at = (size_t)line_in_frame(f, field, line) * width;
+    if (sample) wf_key_put(f->setup, k, width, (char *)slot_of(f, field)->key + at * sample);
+}
+
 /* Encoded color and alpha as the law of fill and key has them, and the codes of alpha, which
  * are of full range. */
 static void finish_alpha(wf_frames *f, int64_t field, int line, float *const rgba[4],
                          size_t width) {
     const wf_setup *s = f->setup;
-    int most = (1 << s->output_options.bits) - 1;
-    uint16_t *code = frame_line(f, field, ALPHA, line);
+    if (is_linear(s)) return;
     wf_key_line(s->key_law, rgba, width);
     if (s->output_options.straight && s->key_law == WF_KEY_ENCODED)
         slot_of(f, field)->clipped += (int64_t)wf_key_straighten(rgba, width);
+    if (f->planes <= ALPHA) return;
+    int most = (1 << s->output_options.bits) - 1;
+    uint16_t *code = frame_line(f, field, ALPHA, line);
     for (size_t x = 0; x < width; x++) code[x] = (uint16_t)lrintf(rgba[ALPHA][x] * (float)most);
 }
 
@@ -214,7 +236,7 @@ void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
     double start = wf_now_s();
     wf_frames_place(f, worker, field, line, rgb);
     size_t width = (size_t)f->raster->width_px;
-    float *alpha = is_linear(f->setup) ? NULL : wf_frames_alpha(f, worker, field, line);
+    float *alpha = wf_frames_alpha(f, worker, field, line);
     bool divided = f->setup->output_options.straight && f->setup->key_law == WF_KEY_LIGHT;
     if (alpha && divided) divide_by_alpha(rgb, alpha, width);
     if (transform->apply) {
@@ -222,6 +244,7 @@ void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
         clip_below(f->setup, rgb, width);
     }
     if (alpha) finish_alpha(f, field, line, (float *[]){rgb[0], rgb[1], rgb[2], alpha}, width);
+    if (alpha) put_key(f, field, line, alpha);
     if (!is_linear(f->setup)) encode(f, worker, field, line, rgb);
     worker->color_s += wf_now_s() - start;
 }
@@ -229,7 +252,7 @@ void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
 /* ---- Frames ---- */
 
 weft_status wf_frames_open(wf_frames *f, weft_error *err) {
-    return f->setup->output.ops->open(&f->setup->output_options, &f->sink, err);
+    return wf_outputs_open(f->setup, &f->outputs, err);
 }
 
 /* The planes are those of a later frame after this. */
@@ -245,7 +268,8 @@ static void count_legal(wf_frames *f, slot *frame) {
 static weft_status write_frame(void *user, weft_error *err) {
     wf_frames *f = user;
     double start = wf_now_s();
-    weft_status status = f->setup->output.ops->write(f->sink, &f->written, err);
+    weft_status status =
+        wf_outputs_write(f->setup, &f->outputs, &f->written, f->written_key, err);
     f->write_s += wf_now_s() - start;
     return status;
 }
@@ -255,6 +279,7 @@ weft_status wf_frames_write(wf_frames *f, int64_t index, weft_error *err) {
     weft_status status = wf_aside_end(&f->writing, err);
     if (status) return status;
     f->written = (wf_frame){.index = index};
+    f->written_key = from->key;
     for (int c = 0; c < f->planes; c++) {
         f->written.plane[c] = from->plane[c];
         f->written.stride[c] = f->stride[c];
@@ -269,15 +294,15 @@ weft_status wf_frames_commit(wf_frames *f, weft_error *err) {
     weft_status status = wf_aside_end(&f->writing, err);
     if (status) return status;
     double start = wf_now_s();
-    status = f->setup->output.ops->commit(f->sink, err);
-    f->sink = NULL;
+    status = wf_outputs_commit(f->setup, &f->outputs, err);
     f->write_s += wf_now_s() - start;
     return status;
 }
 
 static void tell_alpha(const wf_frames *f, double pixels, wf_report *report) {
     const wf_setup *s = f->setup;
-    if (!s->output_options.alpha) return;
+    if (!wf_job_writes_alpha(f->crew->job)) return;
+    report->key = s->key.kind ? s->key.kind->name : NULL;
     report->fill = s->output_options.straight ? "straight" : "premultiplied";
     report->key_law = s->key_law == WF_KEY_ENCODED ? "encoded" : "light";
     if (f->crew->done)
@@ -294,10 +319,15 @@ void wf_frames_tell(const wf_frames *f, wf_report *report) {
 
 /* ---- Which frames ---- */
 
+static bool present(const weft_job *job, const wf_setup *s, int64_t file) {
+    return wf_output_present(s->output.kind, job->output, file) &&
+           (!s->key.kind || wf_output_present(s->key.kind, job->key, file));
+}
+
 static bool is_there(const weft_job *job, const wf_setup *s, int64_t frame) {
     int files = wf_output_files(&s->output_options);
     for (int n = 0; n < files; n++)
-        if (!wf_output_present(s->output.kind, job->output, frame * files + n)) return false;
+        if (!present(job, s, frame * files + n)) return false;
     return true;
 }
 
@@ -310,6 +340,5 @@ bool wf_frames_next(const weft_job *job, const wf_setup *s, int64_t *first, int6
 }
 
 bool wf_frames_all_there(const weft_job *job, const wf_setup *s) {
-    return job->resume && !s->output.kind->sequence &&
-           wf_output_present(s->output.kind, job->output, -1);
+    return job->resume && !s->output.kind->sequence && present(job, s, -1);
 }

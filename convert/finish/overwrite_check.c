@@ -56,14 +56,14 @@ static weft_status check(const char *path, const identity *inputs, size_t count,
                    "%s: the output would replace an input; write it under another name", path);
 }
 
-static weft_status check_outputs(const weft_job *job, const wf_setup *s, const identity *inputs,
-                                 size_t count, weft_error *err) {
-    if (!wf_pattern_is(job->output)) return check(job->output, inputs, count, err);
+static weft_status check_output(const char *output, const wf_setup *s, const identity *inputs,
+                                size_t count, weft_error *err) {
+    if (!wf_pattern_is(output)) return check(output, inputs, count, err);
     weft_status status = WEFT_OK;
     char path[4096];
     int files = wf_output_files(&s->output_options);
     for (int64_t n = s->first_frame * files; n < s->end_frame * files && !status; n++)
-        if (wf_pattern_path(job->output, n, path, sizeof path))
+        if (wf_pattern_path(output, n, path, sizeof path))
             status = check(path, inputs, count, err);
     return status;
 }
@@ -73,7 +73,8 @@ weft_status wf_refuse_own_inputs(const weft_job *job, const wf_setup *s, weft_er
     identity *inputs = malloc((s->sequence.count + job->input_count + 2) * sizeof *inputs);
     if (!inputs) return wf_fail(err, WEFT_NO_MEMORY, "no memory to list the inputs");
     size_t count = identify_inputs(job, &s->sequence, inputs);
-    weft_status status = count ? check_outputs(job, s, inputs, count, err) : WEFT_OK;
+    weft_status status = count ? check_output(job->output, s, inputs, count, err) : WEFT_OK;
+    if (!status && count && job->key) status = check_output(job->key, s, inputs, count, err);
     free(inputs);
     return status;
 }

@@ -3,9 +3,12 @@
 #include "convert/finish/setup.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "convert/base/pattern.h"
 #include "convert/job/audio.h"
 #include "convert/job/colors.h"
 #include "convert/sound/sound.h"
@@ -81,7 +84,8 @@ static wf_fill fill_of(const weft_job *job, const wf_output_kind *kind) {
 
 static weft_status check_alpha(const weft_job *job, const wf_output_kind *kind,
                                weft_error *err) {
-    if (!job->alpha_out || kind->fills & 1u << fill_of(job, kind)) {
+    bool beside = job->alpha_out || kind->layout == WF_LINEAR;
+    if (!wf_job_writes_alpha(job) || !beside || kind->fills & 1u << fill_of(job, kind)) {
         bool lit = kind->layout == WF_LINEAR && job->key_law == WF_KEY_CHOICE_ENCODED;
         return lit ? wf_fail(err, WEFT_USAGE,
                              "%s: %s holds light; --key-law encoded is for codes", job->output,
@@ -91,33 +95,35 @@ static weft_status check_alpha(const weft_job *job, const wf_output_kind *kind,
     if (!kind->fills)
         return wf_fail(err, WEFT_USAGE,
                        "%s: %s holds no alpha; --alpha-out is for .exr, .png, .tif, .dpx, "
-                       ".mov (--codec prores-4444) and .mkv",
+                       ".mov (--codec prores-4444) and .mkv, and --key writes it by itself",
                        job->output, kind->name);
     return wf_fail(err, WEFT_USAGE,
                    "%s: beside alpha, color in %s is always %s; leave out --fill", job->output,
                    kind->name, job->fill == WF_FILL_STRAIGHT ? "premultiplied" : "straight");
 }
 
-static void tell_changes(const weft_job *job, const wf_setup *s) {
+static void tell_changes(const weft_job *job, const wf_output *output,
+                         const wf_output_options *options) {
     char text[512] = "";
-    if (s->output.ops->tell) s->output.ops->tell(&s->output_options, text, sizeof text);
+    if (output->ops->tell) output->ops->tell(options, text, sizeof text);
     if (*text) wf_job_warn(job, "%s", text);
-    if (s->output.kind->layout == WF_LINEAR && job->legalize != WF_LEGAL_NONE)
+    if (output->kind->layout == WF_LINEAR && job->legalize != WF_LEGAL_NONE)
         wf_job_warn(job, "%s: --legalize is for codes; float samples stay as they are",
                     job->output);
 }
 
-static void describe_sink(const weft_job *job, wf_setup *s, int bits, bool full) {
-    s->raster = job->raster;
-    s->output_options = (wf_output_options){
+static wf_output_options describe_sink(const weft_job *job, const wf_setup *s,
+                                       const wf_output_kind *kind, int bits, bool full) {
+    return (wf_output_options){
         .output = job->output,
         .raster = &s->raster,
-        .layout = s->output.kind->layout,
-        .bits = s->output.kind->layout == WF_LINEAR ? 32 : bits,
+        .layout = kind->layout,
+        .bits = kind->layout == WF_LINEAR ? 32 : bits,
         .full_range = full,
-        .subsampled = is_subsampled(job, s->output.kind),
+        .subsampled = is_subsampled(job, kind),
         .alpha = job->alpha_out,
-        .straight = job->alpha_out && fill_of(job, s->output.kind) == WF_FILL_STRAIGHT,
+        .straight = job->fill == WF_FILL_STRAIGHT ||
+                    (job->alpha_out && fill_of(job, kind) == WF_FILL_STRAIGHT),
         .separate_fields = job->separate_fields,
         .stream_header = job->chunk == 1,
         .chunked = job->chunk_count > 1,
@@ -145,6 +151,84 @@ static void describe_codes(const weft_job *job, wf_setup *s, int bits, bool full
     };
 }
 
+/* ---- The key ---- */
+
+/* Two names of one file, or of one sequence. */
+static bool same_files(const char *a, const char *b) {
+    char one[PATH_MAX], other[PATH_MAX], *folder[2];
+    const char *names[2] = {a, b};
+    if (!strcmp(a, b)) return true;
+    for (int i = 0; i < 2; i++) {
+        char *path = i ? other : one;
+        bool numbered = wf_pattern_is(names[i]) && wf_pattern_path(names[i], 0, path, PATH_MAX);
+        if (!numbered) snprintf(path, PATH_MAX, "%s", names[i]);
+        char *slash = strrchr(path, '/');
+        if (slash) *slash = '\0';
+        names[i] = slash ? slash + 1 : path;
+        folder[i] = realpath(!slash ? "." : slash == path ? "/" : path, NULL);
+    }
+    bool same =
+        folder[0] && folder[1] && !strcmp(folder[0], folder[1]) && !strcmp(names[0], names[1]);
+    free(folder[0]);
+    free(folder[1]);
+    return same;
+}
+
+/* The job of the key: as that of the fill where its kind takes that, and as the kind has it
+ * where not. Its codes are of narrow range in Y'CbCr. */
+static weft_job job_of_key(const weft_job *job, wf_output *output, weft_error *err) {
+    weft_job own = *job;
+    own.output = job->key;
+    own.audio = NULL;
+    own.alpha_out = false;
+    own.legalize = WF_LEGAL_NONE;
+    *output = job->codec ? wf_output_for(job->key, job->codec, NULL) : (wf_output){0};
+    if (!output->kind) {
+        own.codec = NULL;
+        *output = wf_output_for(job->key, NULL, err);
+    }
+    const wf_output_kind *kind = output->kind;
+    if (!kind) return own;
+    if (own.bits && !(kind->bits_mask & 1u << own.bits)) own.bits = 0;
+    if (!own.bits) own.bits = kind->default_bits;
+    if (kind->fixed_422) own.chroma = WF_CHROMA_BOX;
+    if (kind->layout == WF_YCBCR) own.range = WF_RANGE_NARROW;
+    return own;
+}
+
+static weft_status check_key(const weft_job *job, const wf_setup *s, weft_error *err) {
+    if (same_files(job->key, job->output))
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: the key and the fill would be one file; give --key another name",
+                       job->key);
+    if (job->resume && s->key.kind->sequence != s->output.kind->sequence)
+        return wf_fail(err, WEFT_USAGE,
+                       "--resume: %s and %s are made again frame by frame only where both are "
+                       "sequences; give --overwrite",
+                       job->output, job->key);
+    return WEFT_OK;
+}
+
+static weft_status settle_key(const weft_job *job, wf_setup *s, weft_error *err) {
+    if (!job->key) return WEFT_OK;
+    const weft_job own = job_of_key(job, &s->key, err);
+    const wf_output_kind *kind = s->key.kind;
+    if (!kind) return WEFT_USAGE;
+    bool full = own.range == WF_RANGE_UNSET ? kind->full_range : own.range == WF_RANGE_FULL;
+    weft_status status = check_key(job, s, err);
+    if (!status) status = check_codes(&own, kind, own.bits, err);
+    if (!status) status = check_files(&own, kind, err);
+    if (status) return status;
+    s->key_options = describe_sink(&own, s, kind, own.bits, full);
+    s->key_options.straight = false;
+    s->key_options.sound = (wf_sound_feed){0};
+    if (s->key.ops->check) status = s->key.ops->check(&s->key_options, err);
+    if (!status) tell_changes(&own, &s->key, &s->key_options);
+    return status;
+}
+
+/* ---- The output ---- */
+
 /* The sink and the codes, but for what depends on colors. */
 static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err) {
     s->output = wf_output_for(job->output, job->codec, err);
@@ -156,11 +240,12 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     if (!status) status = check_files(job, kind, err);
     if (!status) status = check_alpha(job, kind, err);
     if (status) return status;
-    describe_sink(job, s, bits, full);
+    s->raster = job->raster;
+    s->output_options = describe_sink(job, s, kind, bits, full);
     describe_codes(job, s, bits, full);
     if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);
-    if (!status) tell_changes(job, s);
-    return status;
+    if (!status) tell_changes(job, &s->output, &s->output_options);
+    return status ? status : settle_key(job, s, err);
 }
 
 /* The matrix that goes with the colors of the codes. */
@@ -178,12 +263,12 @@ static bool is_bt1886(const char *space) {
 
 /* Video is for mixers, which lay codes over codes; pictures and light are not. */
 static weft_status settle_law(const weft_job *job, wf_setup *s, weft_error *err) {
-    bool mixed = s->output.kind->container && s->output.kind->layout != WF_LINEAR;
+    bool mixed = (s->output.kind->container || job->key) && s->output.kind->layout != WF_LINEAR;
     bool asked = job->key_law == WF_KEY_CHOICE_ENCODED;
     bool encoded = asked || (!job->key_law && mixed);
     bool known = is_bt1886(s->color_space);
     s->key_law = encoded && known ? WF_KEY_ENCODED : WF_KEY_LIGHT;
-    if (!job->alpha_out || !encoded || known) return WEFT_OK;
+    if (!wf_job_writes_alpha(job) || !encoded || known) return WEFT_OK;
     if (asked)
         return wf_fail(
             err, WEFT_USAGE,
@@ -217,6 +302,8 @@ weft_status wf_setup_video(const weft_job *job, wf_setup *s, weft_error *err) {
 void wf_setup_tell_frames(wf_setup *s) {
     s->output_options.first_frame = s->first_frame;
     s->output_options.frame_count = s->endless ? -1 : s->end_frame - s->first_frame;
+    s->key_options.first_frame = s->output_options.first_frame;
+    s->key_options.frame_count = s->output_options.frame_count;
 }
 
 void wf_setup_frames(const weft_job *job, wf_setup *s, int64_t first, int64_t end) {

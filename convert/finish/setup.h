@@ -29,6 +29,8 @@ typedef struct wf_setup {
     wf_raster raster; /* of what is written: the job's, with the matrix of the codes */
     wf_output output;
     wf_output_options output_options;
+    wf_output key; /* the key's, beside the fill that output is; {NULL}: there is none */
+    wf_output_options key_options;
     char timecode[WF_TIMECODE_SIZE]; /* of frame 0, where the input told it */
     char color_space[128];           /* of what is written; "" if it has no name */
     wf_chromaticities primaries;     /* of light that is written as it came in */

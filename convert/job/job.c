@@ -134,16 +134,23 @@ static weft_status check_rules(const rule *rules, size_t count, weft_error *err)
     return WEFT_OK;
 }
 
+bool wf_job_writes_alpha(const weft_job *job) {
+    return job->alpha_out || job->key;
+}
+
 static weft_status check_alpha(const weft_job *job, weft_error *err) {
+    bool writes_alpha = wf_job_writes_alpha(job);
     const float *behind = job->background;
     const rule rules[] = {
-        {job->alpha_out && job->command != WF_CONVERT,
-         "--alpha-out is for convert: alpha of scenes is not traced"},
-        {job->alpha_out && (behind[0] != 0 || behind[1] != 0 || behind[2] != 0),
-         "--alpha-out leaves what is behind the pictures open, and --background fills it; give "
-         "one of them"},
-        {(job->fill || job->key_law) && !job->alpha_out,
-         "--fill and --key-law tell what is written beside alpha; give --alpha-out too"},
+        {writes_alpha && job->command != WF_CONVERT,
+         "--alpha-out and --key are for convert: alpha of scenes is not traced"},
+        {writes_alpha && (behind[0] != 0 || behind[1] != 0 || behind[2] != 0),
+         "--alpha-out and --key leave what is behind the pictures open, and --background fills "
+         "it; give one of them"},
+        {(job->fill || job->key_law) && !writes_alpha,
+         "--fill and --key-law tell what is written beside alpha; give --alpha-out too, "
+         "or --key"},
+        {job->key && !*job->key, "--key needs a name, such as key.mov"},
     };
     return check_rules(rules, sizeof rules / sizeof *rules, err);
 }
@@ -178,14 +185,6 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
                                         "what is not there; give one of them"},
         {job->resume && job->output && !strcmp(job->output, "-"),
          "--resume: standard output cannot be resumed; write to a file"},
-        {job->alpha_out && job->command != WF_CONVERT,
-         "--alpha-out is for convert: alpha of scenes is not traced"},
-        {job->alpha_out &&
-             (job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0),
-         "--alpha-out leaves what is behind the pictures open, and --background fills it; give "
-         "one of them"},
-        {(job->fill || job->key_law) && !job->alpha_out,
-         "--fill and --key-law tell what is written beside alpha; give --alpha-out too"},
     };
     weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
     if (!status) status = check_alpha(job, err);

@@ -44,6 +44,7 @@ struct weft_job {
     wf_chroma chroma;
     wf_legalize legalize;
     bool alpha_out; /* alpha is written, and nothing lies behind the pictures */
+    char *key;      /* where alpha is written as a picture of its own; NULL: nowhere */
     wf_fill fill;
     wf_key_choice key_law;
     wf_dither dither;
@@ -98,6 +99,9 @@ void wf_job_warn(const weft_job *job, const char *format, ...)
 /* Contradictions between options that can be seen without opening a file: what weft_job_run
  * looks at first. Options may be set in any order. */
 weft_status wf_job_check(const weft_job *job, weft_error *err);
+
+/* Whether alpha goes anywhere: beside the picture, or into a key. */
+bool wf_job_writes_alpha(const weft_job *job);
 
 /* Settles what depends on several options, in a job that wf_job_check passes: the raster takes
  * on the cadence. */

@@ -148,7 +148,8 @@ static weft_status no_memory(const loading *l, weft_error *err) {
 
 static weft_status set_one(const loading *l, const char *value, bool on, weft_error *err) {
     weft_error why = {""};
-    bool file = value && l->option.takes && !strcmp(l->option.takes, "FILE");
+    const char *takes = value ? l->option.takes : NULL;
+    bool file = takes && (!strcmp(takes, "FILE") || !strcmp(takes, "OUTPUT"));
     char *own = file ? from_folder(l, value) : NULL;
     if (file && !own) return no_memory(l, err);
     weft_status status =

@@ -83,7 +83,7 @@ static const wf_meant rows[] = {
     {"codec", "h265", "Y4M into ffmpeg, which makes HEVC"},
     {"codec", "hevc", "Y4M into ffmpeg, which makes HEVC"},
     {"codec", "prores422", "prores"},         {"codec", "prores422hq", "prores-hq"},
-    {"codec", "prores4444", "ffv1 for 4:4:4, or prores-hq"},
+    {"codec", "prores4444", "prores-4444"},
     {"codec", "proreshq", "prores-hq"},       {"codec", "dnx", "dnxhd"},
     {"codec", "xdcam", "xdcamhd422"},         {"codec", "xdcamhd", "xdcamhd422"},
     {"codec", "xdcam-hd422", "xdcamhd422"},   {"codec", "mpeg2", "xdcamhd422, or imx50 for SD"},

@@ -166,6 +166,11 @@ static const wf_option_row rows[] = {
         "Write alpha beside the picture, where the output holds it; nothing lies behind it "
         "then.",
         set_flag, AT(alpha_out)),
+    ROW(codes, VIDEO, "key", "OUTPUT", NULL,
+        "Write alpha as a picture of its own, gray, of the same raster, order and timecode: "
+        "the "
+        "key of the fill that the output is.",
+        set_text, TEXT(key)),
     ROW(codes, VIDEO, "fill", "premultiplied|straight", "the output's",
         "Whether color that is written beside alpha is multiplied by it.", set_choice, AT(fill),
         .base = WF_FILL_PREMULTIPLIED),

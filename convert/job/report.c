@@ -76,6 +76,7 @@ static void add_alpha(wf_json *json, const wf_report *report) {
         wf_json_text(json, "fill", report->fill);
         wf_json_text(json, "law", report->key_law);
         wf_json_real(json, "clipped_share", report->fill_clipped_share);
+        if (report->key) wf_json_text(json, "key", report->key);
     }
     wf_json_close(json);
 }

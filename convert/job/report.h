@@ -39,6 +39,7 @@ typedef struct wf_report {
     double error_estimate; /* RMS, display-encoded; 0: none was made */
 
     wf_report_legal legal;
+    const char *key;            /* the kind of output that is the key; NULL: none is */
     const char *fill, *key_law; /* of alpha that is written; NULL: none is */
     double fill_clipped_share;  /* of pixels whose straight fill was above 1 */
     void (*add_plan)(wf_json *json, const void *plan); /* of a dry run; NULL: of none */

@@ -82,22 +82,30 @@ static void add_inputs(wf_dry_run *d, const wf_run *run, const bool *needed) {
     }
 }
 
-static void name_output(const wf_run *run, int64_t number, char path[PATH_MAX]) {
-    const char *output = run->job->output;
-    bool named = run->setup.output.kind->sequence && wf_pattern_is(output) &&
+static void name_output(const wf_output_kind *kind, const char *output, int64_t number,
+                        char path[PATH_MAX]) {
+    bool named = kind->sequence && wf_pattern_is(output) &&
                  wf_pattern_path(output, number, path, PATH_MAX);
     if (!named) snprintf(path, PATH_MAX, "%s", output);
 }
 
-static void find_present(wf_dry_run *d, const wf_run *run) {
-    const wf_setup *s = &run->setup;
+/* Tells of an output by its kind and its name. */
+static void find_present(wf_dry_output *o, const wf_setup *s, const wf_output_kind *kind,
+                         const char *name) {
     int files = wf_output_files(&s->output_options);
-    d->kind = s->output.kind->name;
-    if (!s->output.kind->sequence)
-        d->present = wf_output_present(s->output.kind, run->job->output, -1);
-    for (int64_t n = s->first_frame * files;
-         s->output.kind->sequence && n < s->end_frame * files; n++)
-        d->present += wf_output_present(s->output.kind, run->job->output, n);
+    o->kind = kind->name;
+    if (!kind->sequence) o->present = wf_output_present(kind, name, -1);
+    for (int64_t n = s->first_frame * files; kind->sequence && n < s->end_frame * files; n++)
+        o->present += wf_output_present(kind, name, n);
+}
+
+/* Frames first <= n < end are among those that will be written. */
+static void add_output(wf_dry_output *o, const wf_setup *s, const wf_output_kind *kind,
+                       const char *name, const int64_t frames[2]) {
+    int files = wf_output_files(&s->output_options);
+    if (!o->files) name_output(kind, name, frames[0] * files, o->first);
+    name_output(kind, name, frames[1] * files - 1, o->last);
+    o->files = kind->sequence ? o->files + (frames[1] - frames[0]) * files : 1;
 }
 
 /* ---- All of it ---- */
@@ -116,14 +124,14 @@ static void add_fields(wf_dry_run *d, const wf_run *run, const wf_timing *timing
 static void add_frames(wf_dry_run *d, const wf_run *run, const wf_timing *timing, bool pictures,
                        bool *needed) {
     const wf_setup *s = &run->setup;
-    int files = wf_output_files(&s->output_options);
-    for (int64_t n = s->first_frame, end; wf_frames_next(run->job, s, &n, &end); n = end) {
+    const weft_job *job = run->job;
+    for (int64_t n = s->first_frame, end; wf_frames_next(job, s, &n, &end); n = end) {
+        const int64_t frames[2] = {n, end};
         if (!pictures) add_fields(d, run, timing, n, end, needed);
-        if (!d->frames) name_output(run, n * files, d->first_output);
-        name_output(run, end * files - 1, d->last_output);
+        add_output(&d->output, s, s->output.kind, job->output, frames);
+        if (s->key.kind) add_output(&d->key, s, s->key.kind, job->key, frames);
         d->frames += end - n;
     }
-    d->outputs = !d->frames ? 0 : s->output.kind->sequence ? d->frames * files : 1;
     if (pictures)
         d->samples = d->frames * (int64_t)raster_of(run)->width_px * raster_of(run)->lines;
 }
@@ -134,9 +142,12 @@ static wf_sink_size deep_size(const wf_dry_run *d, const wf_raster *r) {
     return (wf_sink_size){24 * d->samples + d->frames * (4096 + table), WF_SIZE_MOST};
 }
 
-static wf_sink_size find_size(const wf_dry_run *d, const wf_run *run, bool pictures) {
-    if (run->job->command == WF_TRACE && !pictures) return deep_size(d, raster_of(run));
-    return wf_output_size(&run->setup.output, &run->setup.output_options, d->frames);
+static void find_sizes(wf_dry_run *d, const wf_run *run, bool pictures) {
+    const wf_setup *s = &run->setup;
+    bool deep = run->job->command == WF_TRACE && !pictures;
+    d->output.size = deep ? deep_size(d, raster_of(run))
+                          : wf_output_size(&s->output, &s->output_options, d->frames);
+    if (s->key.kind) d->key.size = wf_output_size(&s->key, &s->key_options, d->frames);
 }
 
 static weft_status find_all(wf_dry_run *d, const wf_run *run, bool pictures, weft_error *err) {
@@ -148,10 +159,11 @@ static weft_status find_all(wf_dry_run *d, const wf_run *run, bool pictures, wef
     weft_status status = needed && (d->fields || pictures)
                              ? find_times(run, &timing, err)
                              : wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
-    find_present(d, run);
+    find_present(&d->output, s, s->output.kind, run->job->output);
+    if (s->key.kind) find_present(&d->key, s, s->key.kind, run->job->key);
     if (!status && !wf_frames_all_there(run->job, s))
         add_frames(d, run, &timing, pictures, needed);
-    if (!status && d->frames) d->size = find_size(d, run, pictures);
+    if (!status && d->frames) find_sizes(d, run, pictures);
     if (!status && d->reads) add_inputs(d, run, needed);
     free(needed);
     return status;

@@ -13,6 +13,14 @@ typedef struct wf_dry_field {
     int64_t missing;     /* of them */
 } wf_dry_field;
 
+/* Of an output: its kind (NULL: there is none), its files, those that are there already. */
+typedef struct wf_dry_output {
+    const char *kind;
+    int64_t files, present;
+    char first[PATH_MAX], last[PATH_MAX];
+    wf_sink_size size;
+} wf_dry_output;
+
 struct wf_dry_run {
     wf_dry_field *fields; /* NULL: it makes subframes */
     size_t field_count;
@@ -23,10 +31,7 @@ struct wf_dry_run {
     size_t memory_bytes;
     int threads;
     int64_t samples; /* to be traced; < 0: not known */
-    int64_t outputs, present;
-    char first_output[PATH_MAX], last_output[PATH_MAX];
-    wf_sink_size size;
-    const char *kind; /* of output */
+    wf_dry_output output, key;
 };
 
 /* For people, into job->plan; and for the report. */

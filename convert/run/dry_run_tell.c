@@ -15,27 +15,28 @@ static const char *const sizes[] = {
 
 /* ---- For people ---- */
 
-static const char *fate(const weft_job *job, const wf_dry_run *d) {
-    return !d->present      ? "new"
+static const char *fate(const weft_job *job, const wf_dry_output *o) {
+    return !o->present      ? "new"
            : job->overwrite ? "overwritten"
            : job->resume    ? "kept"
                             : "refused";
 }
 
-static void put_outputs(FILE *to, const wf_dry_run *d, const weft_job *job) {
-    fprintf(to, "output: %s, %" PRId64 " there already (%s)\n", d->kind, d->present,
-            fate(job, d));
-    if (!d->outputs) fputs("files: none, all of it is there\n", to);
-    if (d->outputs == 1) fprintf(to, "files: %s\n", d->first_output);
-    if (d->outputs > 1)
-        fprintf(to, "files: %s .. %s (%" PRId64 ")\n", d->first_output, d->last_output,
-                d->outputs);
-    bool plain = d->size.known == WF_SIZE_EXACT;
-    if (d->size.known == WF_SIZE_UNKNOWN)
-        fprintf(to, "bytes: %s\n", d->outputs ? "not known, the codec decides" : "0");
+static void put_output(FILE *to, const wf_dry_output *o, const char *what,
+                       const weft_job *job) {
+    if (!o->kind) return;
+    fprintf(to, "%s: %s, %" PRId64 " there already (%s)\n", what, o->kind, o->present,
+            fate(job, o));
+    if (!o->files) fputs("files: none, all of it is there\n", to);
+    if (o->files == 1) fprintf(to, "files: %s\n", o->first);
+    if (o->files > 1)
+        fprintf(to, "files: %s .. %s (%" PRId64 ")\n", o->first, o->last, o->files);
+    bool plain = o->size.known == WF_SIZE_EXACT;
+    if (o->size.known == WF_SIZE_UNKNOWN)
+        fprintf(to, "bytes: %s\n", o->files ? "not known, the codec decides" : "0");
     else
-        fprintf(to, "bytes: %s%s%" PRId64 "\n", plain ? "" : sizes[d->size.known],
-                plain ? "" : " ", d->size.bytes);
+        fprintf(to, "bytes: %s%s%" PRId64 "\n", plain ? "" : sizes[o->size.known],
+                plain ? "" : " ", o->size.bytes);
 }
 
 static void put_field(FILE *to, const wf_dry_run *d, size_t i) {
@@ -65,7 +66,8 @@ static void put_all(FILE *to, const wf_dry_run *d, const weft_job *job) {
     else
         fprintf(to, "%s: %" PRId64 " subframes for %s\n", job->output, d->frames,
                 job->raster.name);
-    put_outputs(to, d, job);
+    put_output(to, &d->output, "output", job);
+    put_output(to, &d->key, "key", job);
     if (d->reads)
         fprintf(to, "input: %" PRId64 " files, %" PRId64 " bytes, opened %" PRId64 " times\n",
                 d->files, d->read_bytes, d->opened);
@@ -107,16 +109,23 @@ static void add_field(wf_json *json, const wf_dry_run *d, const wf_dry_field *fi
     wf_json_close(json);
 }
 
-static void add_outputs(wf_json *json, const wf_dry_run *d) {
-    wf_json_text(json, "output", d->kind);
-    wf_json_int(json, "present", d->present);
-    wf_json_int(json, "outputs", d->outputs);
-    if (d->outputs) {
-        wf_json_text(json, "first_output", d->first_output);
-        wf_json_text(json, "last_output", d->last_output);
+static void add_output(wf_json *json, const wf_dry_output *o) {
+    wf_json_text(json, "output", o->kind);
+    wf_json_int(json, "present", o->present);
+    wf_json_int(json, "outputs", o->files);
+    if (o->files) {
+        wf_json_text(json, "first_output", o->first);
+        wf_json_text(json, "last_output", o->last);
     }
-    if (!d->outputs || d->size.known) wf_json_int(json, "bytes_to_write", d->size.bytes);
-    wf_json_text(json, "bytes_known", sizes[d->outputs ? d->size.known : WF_SIZE_EXACT]);
+    if (!o->files || o->size.known) wf_json_int(json, "bytes_to_write", o->size.bytes);
+    wf_json_text(json, "bytes_known", sizes[o->files ? o->size.known : WF_SIZE_EXACT]);
+}
+
+static void add_key(wf_json *json, const wf_dry_output *key) {
+    if (!key->kind) return;
+    wf_json_open(json, "key", '{');
+    add_output(json, key);
+    wf_json_close(json);
 }
 
 void wf_dry_run_json(wf_json *json, const void *plan) {
@@ -124,7 +133,8 @@ void wf_dry_run_json(wf_json *json, const void *plan) {
     wf_json_open(json, "plan", '{');
     wf_json_int(json, "frames", d->frames);
     wf_json_int(json, "fields_made", (int64_t)d->field_count);
-    add_outputs(json, d);
+    add_output(json, &d->output);
+    add_key(json, &d->key);
     if (d->reads) {
         wf_json_int(json, "files", d->files);
         wf_json_int(json, "opened", d->opened);

@@ -91,7 +91,7 @@ static weft_status find_input(wf_run *run, weft_error *err) {
         .layer = job->layer,
         .part = job->part,
         .want_alpha =
-            (shows_background(job) || job->alpha_out) && job->alpha != WF_ALPHA_IGNORED,
+            (shows_background(job) || wf_job_writes_alpha(job)) && job->alpha != WF_ALPHA_IGNORED,
         .alpha = job->alpha,
         .to_light = !job->from,
         .nan_fix = job->nan_fix,

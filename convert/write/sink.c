@@ -105,12 +105,18 @@ wf_sink_size wf_output_size(const wf_output *output, const wf_output_options *op
     return output->ops->size ? output->ops->size(options, frames) : (wf_sink_size){0};
 }
 
+/* hash:FILE has one, and null: has none. */
+const char *wf_output_file(const wf_output_kind *kind, const char *name) {
+    size_t scheme = strcspn(kind->endings, ":");
+    if (kind->endings[scheme] == ':') name += scheme + 1;
+    return *name && strcmp(name, "-") ? name : NULL;
+}
+
 bool wf_output_present(const wf_output_kind *kind, const char *name, int64_t frame) {
     char path[PATH_MAX];
     struct stat about;
-    size_t scheme = strcspn(kind->endings, ":");
-    if (!strcmp(name, "-")) return false;
-    if (kind->endings[scheme] == ':') name += scheme + 1; /* hash:FILE, and null: has none */
+    name = wf_output_file(kind, name);
+    if (!name) return false;
     if (kind->sequence && wf_pattern_is(name)) {
         if (frame < 0 || !wf_pattern_path(name, frame, path, sizeof path)) return false;
         name = path;

@@ -16,6 +16,10 @@ wf_output wf_output_for(const char *name, const char *codec, weft_error *err);
 wf_sink_size wf_output_size(const wf_output *output, const wf_output_options *options,
                             int64_t frames);
 
+/* The file that a name of this kind is written to; NULL: none is, or it is standard output. Of
+ * a sequence it is the name. */
+const char *wf_output_file(const wf_output_kind *kind, const char *name);
+
 /* Whether file `frame` is already there, whole (sequences), or the whole output is (index < 0).
  */
 bool wf_output_present(const wf_output_kind *kind, const char *name, int64_t frame);

@@ -5,49 +5,13 @@ not_sanitized "test_jobs.sh writes alpha"
 needs_libav
 needs oiiotool python3 ffmpeg ffprobe
 
-# A block that hides all, one of alpha .5 and one of .1 without light, premultiplied; nothing elsewhere.
-mkdir shot
-for i in 0 1 2 3 4 5 6 7; do
-    oiiotool --create 96x64 4 --fill:color=0.5,0.25,0.1,1:size=60x40+8+8 60x40+8+8 \
-        --fill:color=0.25,0.125,0.05,0.5 16x30+76+20 --fill:color=0,0,0,0.1 16x10+76+4 -d float -o shot/s.000$i.exr
-done
-made_of()
-{
-    exits 0 weft convert shot --subframe-rate 192 --raster 96x64@24p --aperture line --temporal-width 0 -q --overwrite "$@"
-}
-
-# What the codes of the places must be, by trying all K and F'; light: K is alpha, F' the code of the light.
-cat >laws.py <<'END'
-PLACES = {"whole": (40, 30, (.5, .25, .1), 1), "half": (84, 34, (.25, .125, .05), .5),
-          "dark": (84, 8, (0, 0, 0), .1), "none": (2, 2, (0, 0, 0), 0)}
-STEPS = 400
-
-def code(v):
-    return max(v, 0) ** (1 / 2.4)
-
-def span(a, alpha, m):
-    rest = [code(a + (1 - alpha) * (i / STEPS) ** 2.4) - m * i / STEPS for i in range(STEPS + 1)]
-    return min(rest), max(rest)
-
-def fill_and_key(light, alpha, law, straight):
-    if law == "light" or alpha == 1:
-        k, f = alpha, [code(a / alpha if straight and alpha else a) for a in light]
-        return f, k
-    worst, m = min((max(hi - lo for lo, hi in (span(a, alpha, k / 1000) for a in set(light))), k / 1000) for k in range(0, 1001))
-    f, k = [sum(span(a, alpha, m)) / 2 for a in light], 1 - m
-    return ([min(v / k, 1) if k else 0 for v in f] if straight else f), k
-
-def ycbcr(rgb, bits):  # BT.709, narrow range
-    r, g, b = rgb
-    y, one = .2126 * r + .7152 * g + .0722 * b, 1 << (bits - 8)
-    return (16 + 219 * y) * one, (128 + 224 * (b - y) / 1.8556) * one, (128 + 224 * (r - y) / 1.5748) * one
-END
+. "$WEFT_SOURCE/tests/key/shot.sh"
 
 # codes FILE PIXELS BITS LAW FILL TOLERANCE: color and alpha at the places are those of the law.
 codes()
 {
     ffmpeg -nostdin -v error -y -i "$1" -frames:v 1 -f rawvideo -pix_fmt "$2" codes.raw || return 1
-    PYTHONPATH=. python3 - "$2" "$3" "$4" "$5" "$6" <<'END'
+    PYTHONPATH=$WEFT_SOURCE/tests/key python3 -B - "$2" "$3" "$4" "$5" "$6" <<'END'
 import struct, sys
 from laws import PLACES, fill_and_key, ycbcr
 pixels, bits, law, fill, most = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4], float(sys.argv[5])

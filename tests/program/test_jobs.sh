@@ -31,7 +31,7 @@ check "legal and adjusted" exits 0 "${convert[@]}" --raster $raster --legalize r
     --dither tpdf --fix-nan box3 --aperture crisp -o legal.y4m --report legal.json
 check "4:4:4 of 12 bits" exits 0 "${convert[@]}" --raster $raster --chroma 444 --bits 12 --range full -o 444.y4m
 check "fields apart" exits 0 "${convert[@]}" --raster $raster --fields separate -o f.####.dpx
-check "alpha" exits 0 "${convert[@]}" --raster $raster --alpha-out --key-law encoded --fill straight -o alpha.####.tif
+check "alpha" exits 0 "${convert[@]}" --raster $raster --alpha-out --key-law encoded --fill straight --key key.####.png -o alpha.####.tif
 check "another space" exits 0 "${convert[@]}" --raster $raster --from ACEScg --to rec2020 -o space.y4m
 check "a chunk" exits 0 "${convert[@]}" --raster $raster --chunk 2/2 --threads 3 -o chunk.y4m
 check "the rest" exits 0 "${convert[@]}" --raster $raster --resume -o "o.####.dpx"
