@@ -176,7 +176,7 @@ static void run_in_order(void *what, wf_worker *worker) {
         void *made = wf_crew_stopped(p->crew) ? NULL : p->make(p->user, worker, n);
         take_in_turn(p, worker, n, made);
         atomic_fetch_add(&p->crew->pieces_done, 1);
-        wf_crew_tick(p->crew, worker);
+        wf_crew_tick(p->crew, worker, 0);
     }
 }
 
@@ -241,7 +241,7 @@ static void tell(wf_crew *crew, double part) {
 
 void wf_crew_step(wf_crew *crew) {
     crew->done++;
-    crew->part = crew->part_share = 0;
+    crew->part = crew->part_share = crew->told_part = 0;
     tell(crew, 0);
 }
 
@@ -253,11 +253,14 @@ void wf_crew_part(wf_crew *crew, double part, double share) {
 /* Seconds between two times that progress within a frame is told of. */
 #define TICK_S 0.25
 
-/* The first worker is the thread that called. */
-void wf_crew_tick(wf_crew *crew, const wf_worker *worker) {
+/* The first worker is the thread that called. The others are as far with their pieces as it is,
+ * about; what has been told once is not taken back. */
+void wf_crew_tick(wf_crew *crew, const wf_worker *worker, double within) {
     if (worker->number || !(crew->part_share > 0) || wf_now_s() - crew->told_s < TICK_S) return;
-    double done = (double)atomic_load(&crew->pieces_done) / fmax(crew->piece_count, 1);
-    tell(crew, fmin(crew->part + crew->part_share * done, 1));
+    double done = atomic_load(&crew->pieces_done) + within * crew->threads;
+    double share = fmin(done / fmax(crew->piece_count, 1), 1);
+    crew->told_part = fmax(crew->told_part, fmin(crew->part + crew->part_share * share, 1));
+    tell(crew, crew->told_part);
 }
 
 wf_worker wf_crew_times(const wf_crew *crew) {

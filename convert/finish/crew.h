@@ -27,6 +27,7 @@ typedef struct wf_crew {
     double began_s, told_s; /* when the run began, and progress was last told of */
     /* Where in a frame the work in hand begins, how much of one it is, and its pieces. */
     double part, part_share;
+    double told_part; /* of the frame, as it was last told */
     int piece_count;
     atomic_int pieces_done;
     struct wf_pool *pool; /* of threads, once there was work for them */
@@ -85,8 +86,9 @@ void wf_crew_step(wf_crew *crew);
  * `share` of it: progress is told of within it. */
 void wf_crew_part(wf_crew *crew, double part, double share);
 
-/* Tells of progress within a frame, if the last time was long ago; any worker, at any time. */
-void wf_crew_tick(wf_crew *crew, const wf_worker *worker);
+/* Tells of progress within a frame, if the last time was long ago; any worker, at any time.
+ * within: how much of its piece it has done, 0 to 1. */
+void wf_crew_tick(wf_crew *crew, const wf_worker *worker, double within);
 
 /* The seconds of all workers together. */
 wf_worker wf_crew_times(const wf_crew *crew);

@@ -1,5 +1,6 @@
 /* Fields summed from samples: who takes a unit's samples, and the bands of rows that they come
  * in. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "convert/base/clock.h"
@@ -59,12 +60,20 @@ typedef struct ticking {
     wf_crew *crew;
     const wf_worker *worker;
     wf_receiver to;
+    int first, rows, width_px; /* of the band and of its tiles; how wide it is */
 } ticking;
+
+/* How much of a band lies before some samples: tiles come a row of them after the other. */
+static double band_part(const ticking *t, const wf_samples *samples) {
+    double row = floor(((double)samples->y[0] - t->first) / t->rows);
+    double part = (row + (double)samples->x[0] / t->width_px) * t->rows / WF_GATHER_ROWS;
+    return fmin(fmax(part, 0), 1);
+}
 
 static void pass_samples(void *user, const wf_samples *samples) {
     const ticking *t = user;
     t->to.samples(t->to.user, samples);
-    wf_crew_tick(t->crew, t->worker);
+    if (samples->count) wf_crew_tick(t->crew, t->worker, band_part(t, samples));
 }
 
 static bool pass_tile(void *user, const wf_sample_tile *tile) {
@@ -78,7 +87,9 @@ static weft_status gather_band(const bands *b, wf_worker *worker, int first,
     int end = first + WF_GATHER_ROWS < lines ? first + WF_GATHER_ROWS : lines;
     if (!wf_band_sums_new(&b->taking, first, end, sums))
         return wf_fail(&worker->error, WEFT_NO_MEMORY, "no memory for a band of a field");
-    ticking t = {&b->run->crew, worker, wf_band_sums_receiver(sums)};
+    int rows = b->g->tiling.rows > 0 ? b->g->tiling.rows : WF_GATHER_ROWS;
+    ticking t = {&b->run->crew, worker, wf_band_sums_receiver(sums),
+                 first,         rows,   b->run->job->raster.width_px};
     const wf_receiver receiver = {&t, pass_samples, t.to.tile ? pass_tile : NULL};
     weft_status status =
         b->run->kind->samples->band(b->run, worker, first, end, &receiver, &worker->error);
