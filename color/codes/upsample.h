@@ -55,6 +55,8 @@ typedef struct wf_signal_loops {
     /* signal[i] = (code[i] - zero) per_code */
     void (*signals)(float *signal, const uint16_t *code, double zero, double per_code,
                     size_t count);
+    void (*of_bytes)(float *signal, const uint8_t *code, double zero, double per_code,
+                     size_t count);
     /* out[i] = sum of tap[k] chroma[i + (first + k) step]: along a line where step is 1, down
      * the columns where it is that from line to line. */
     void (*weigh)(float *out, const float *chroma, ptrdiff_t step,

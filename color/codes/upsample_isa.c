@@ -14,6 +14,12 @@ static void signals(float *restrict signal, const uint16_t *restrict code, doubl
     for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
 }
 
+static void of_bytes(float *restrict signal, const uint8_t *restrict code, double zero,
+                     double per_code, size_t count) {
+    float whole_zero = (float)zero, scale = (float)per_code;
+    for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
+}
+
 static inline void put_or_add(float *to, lanes sum, bool more) {
     if (more) sum += lanes_at(to);
     put_lanes(to, sum);
@@ -102,6 +108,11 @@ static void fine_signals(float *restrict signal, const uint16_t *restrict code, 
     for (size_t i = 0; i < count; i++) signal[i] = (float)((code[i] - zero) * per_code);
 }
 
+static void fine_of_bytes(float *restrict signal, const uint8_t *restrict code, double zero,
+                          double per_code, size_t count) {
+    for (size_t i = 0; i < count; i++) signal[i] = (float)((code[i] - zero) * per_code);
+}
+
 enum { FINE = 16 }; /* sums side by side */
 
 static void fine_weigh(float *restrict out, const float *restrict chroma, ptrdiff_t step,
@@ -144,7 +155,7 @@ static void interleave(float *restrict out, const float *restrict even,
 }
 
 const wf_upsample_ops WF_ISA_TABLE(wf_upsample_ops) = {
-    .quick = {signals, weigh, weigh_pair, rgb},
-    .fine = {fine_signals, fine_weigh, fine_weigh_pair, fine_rgb},
+    .quick = {signals, of_bytes, weigh, weigh_pair, rgb},
+    .fine = {fine_signals, fine_of_bytes, fine_weigh, fine_weigh_pair, fine_rgb},
     .interleave = interleave,
 };

@@ -9,14 +9,36 @@ weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
     return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a frame", video->path);
 }
 
+size_t wf_video_code_bytes(const wf_video_info *info) {
+    return info->bits > 8 ? 2 : 1;
+}
+
+static void *kept_line(const wf_video *video, int plane, int line) {
+    size_t bytes = (size_t)video->frame.width_px[plane] * wf_video_code_bytes(&video->info);
+    return (uint8_t *)video->code[plane] + (size_t)line * bytes;
+}
+
+static void keep_codes(const wf_video *video, int plane, int line, const uint16_t *code) {
+    size_t width = (size_t)video->frame.width_px[plane];
+    uint8_t *to = kept_line(video, plane, line);
+    if (wf_video_code_bytes(&video->info) == sizeof *code)
+        memcpy(to, code, width * sizeof *code);
+    else
+        for (size_t x = 0; x < width; x++) to[x] = (uint8_t)code[x];
+}
+
+void wf_video_take_bytes(wf_video *video, int plane, int line, const uint8_t *code) {
+    if (video->code[plane])
+        memcpy(kept_line(video, plane, line), code, (size_t)video->frame.width_px[plane]);
+}
+
 void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code) {
     const wf_video_info *info = &video->info;
     const wf_encoding encoding = {
         .ycbcr = info->layout == WF_YCBCR, .full_range = info->full_range, .bits = info->bits};
     size_t width = (size_t)video->frame.width_px[plane];
     if (video->take_codes) {
-        if (video->code[plane])
-            memcpy(video->code[plane] + (size_t)line * width, code, width * sizeof *code);
+        if (video->code[plane]) keep_codes(video, plane, line, code);
         return;
     }
     wf_decode_line(&encoding, plane, code, video->frame.plane[plane] + (size_t)line * width,

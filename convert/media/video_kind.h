@@ -71,6 +71,9 @@ typedef struct wf_video_frame {
 
 typedef struct wf_video wf_video;
 
+/* How many bytes a code is kept in: 1 where it has 8 bits or fewer, else 2. */
+size_t wf_video_code_bytes(const wf_video_info *info);
+
 /* What a file says of how its frames are scanned and how fast they follow each other. */
 typedef struct wf_video_label {
     bool scan_known, interlaced, top_first;
@@ -99,16 +102,19 @@ struct wf_video {
     wf_video_options options;
     wf_video_info info;
     wf_video_frame frame;
-    /* Codes are wanted instead of signals: where each plane of them goes, [lines][width_px];
-     * NULL: nowhere, the frame is passed over. */
+    /* Codes are wanted instead of signals: where each plane of them goes, [lines][width_px] of
+     * wf_video_code_bytes each; NULL: nowhere, the frame is passed over. */
     bool take_codes;
-    uint16_t *code[3];
+    void *code[3];
     void *state; /* the kind's */
 };
 
 /* Takes the codes of a line of a plane: as signals into the frame, or where codes are wanted,
  * there. */
 void wf_video_take_codes(wf_video *video, int plane, int line, const uint16_t *code);
+
+/* The same of a line of bytes, where codes are wanted and have one. */
+void wf_video_take_bytes(wf_video *video, int plane, int line, const uint8_t *code);
 
 /* Whether a frame of info's size is allowed: measuring takes about twelve floats a pixel. */
 weft_status wf_video_check_memory(const wf_video *video, weft_error *err);

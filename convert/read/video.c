@@ -233,7 +233,7 @@ weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_er
     return status;
 }
 
-weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
+weft_status wf_video_next_codes(wf_video *video, void *const plane[3], bool *more,
                                 weft_error *err) {
     video->frame.index++;
     video->take_codes = true;

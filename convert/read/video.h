@@ -17,9 +17,10 @@ const wf_video_info *wf_video_info_of(const wf_video *video);
  * that ends within a frame, or a picture of another size, is an error that says which. */
 weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_error *err);
 
-/* The same as codes: fills planes of the sizes that frame->width_px and lines state, or where
- * they are NULL passes the picture over. *more is false, and nothing filled, after the last. */
-weft_status wf_video_next_codes(wf_video *video, uint16_t *const plane[3], bool *more,
+/* The same as codes: fills planes of the sizes that frame->width_px and lines state, of
+ * wf_video_code_bytes a code, or where they are NULL passes the picture over. *more is false,
+ * and nothing filled, after the last. */
+weft_status wf_video_next_codes(wf_video *video, void *const plane[3], bool *more,
                                 weft_error *err);
 
 /* Goes forward to a picture, counted from 0, without decoding all that lie before it where the

@@ -140,12 +140,15 @@ static const uint8_t *take_plane(wf_video *v, int p, const uint8_t *from) {
     stream *s = v->state;
     int width = v->frame.width_px[p];
     bool wide = v->info.bits > 8;
-    for (int y = 0; y < v->frame.lines[p]; y++) {
+    for (int y = 0; y < v->frame.lines[p]; y++, from += (size_t)width * (wide ? 2 : 1)) {
+        if (v->take_codes && !wide) {
+            wf_video_take_bytes(v, p, y, from);
+            continue;
+        }
         for (int x = 0; x < width; x++)
             s->code[0][x] =
                 wide ? (uint16_t)(from[2 * x] | from[2 * x + 1] << 8) : (uint16_t)from[x];
         wf_video_take_codes(v, p, y, s->code[0]);
-        from += (size_t)width * (wide ? 2 : 1);
     }
     return from;
 }

@@ -617,7 +617,7 @@ static weft_status prepare(const wf_run *run, const wf_units *units, weft_error 
 
 typedef struct shown {
     const wf_light *light;
-    const uint16_t *plane[3];
+    const void *plane[3];
 } shown;
 
 static void make_rows(const void *picture, int y0, int y1, void *scratch, float *const rgb[3]) {

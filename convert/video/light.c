@@ -12,8 +12,9 @@ struct wf_light {
     int width_px, lines;
     int chroma_width_px, chroma_lines;
     bool has_chroma; /* false: a lone Y */
-    double zero[3];  /* the code of 0 */
-    double scale;    /* of codes of R'G'B'; that of Y'CbCr is in the matrix */
+    size_t code_bytes;
+    double zero[3]; /* the code of 0 */
+    double scale;   /* of codes of R'G'B'; that of Y'CbCr is in the matrix */
     wf_upsampler across, down;
     wf_rgb_of_chroma matrix;
     const wf_signal_loops *loops;
@@ -67,6 +68,7 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
                     .chroma_width_px = parts(info->width_px, info->across),
                     .chroma_lines = parts(info->lines, info->down),
                     .has_chroma = info->planes == 3,
+                    .code_bytes = wf_video_code_bytes(info),
                     .loops = loops_for(meaning, decode),
                     .owns_decode = !decode};
     if (decode) l->decode = *decode;
@@ -131,14 +133,24 @@ static float *brought_row(const wf_light *l, const rows_made *m, int p, int y) {
 
 /* ---- Chroma at every row ---- */
 
-static void hold_lines(const wf_light *l, const rows_made *m, int p, const uint16_t *plane,
+/* Codes `at` and on of plane p. */
+static void take_signals(const wf_light *l, float *to, const void *plane, int p, size_t at,
+                         size_t count) {
+    if (l->code_bytes == 1)
+        l->loops->of_bytes(to, (const uint8_t *)plane + at, l->zero[p], l->scale, count);
+    else
+        l->loops->signals(to, (const uint16_t *)plane + at, l->zero[p], l->scale, count);
+}
+
+/* Columns x and on of the lines of chroma that the rows see. */
+static void hold_lines(const wf_light *l, const rows_made *m, int p, const void *plane, int x,
                        size_t count) {
     int end = (m->y1 - 1) / l->down.factor + l->down.after + 1;
     float *to = m->held;
     for (int i = m->held_first; i < end; i++, to += COLUMNS) {
         int line = wf_upsample_reflected(&l->down, i, l->chroma_lines, l->lines);
-        l->loops->signals(to, plane + (size_t)line * (size_t)l->chroma_width_px, l->zero[p],
-                          l->scale, count);
+        take_signals(l, to, plane, p, (size_t)line * (size_t)l->chroma_width_px + (size_t)x,
+                     count);
     }
 }
 
@@ -156,17 +168,16 @@ static void weigh_columns(const wf_light *l, const rows_made *m, int p, int x, s
     }
 }
 
-static void bring_down(const wf_light *l, const rows_made *m, int p, const uint16_t *plane) {
+static void bring_down(const wf_light *l, const rows_made *m, int p, const void *plane) {
     size_t width = (size_t)l->chroma_width_px;
     if (l->down.factor == 1) {
         for (int y = m->y0; y < m->y1; y++)
-            l->loops->signals(brought_row(l, m, p, y), plane + (size_t)y * width, l->zero[p],
-                              l->scale, width);
+            take_signals(l, brought_row(l, m, p, y), plane, p, (size_t)y * width, width);
         return;
     }
     for (int x = 0; x < l->chroma_width_px; x += COLUMNS) {
         size_t left = (size_t)(l->chroma_width_px - x), count = left < COLUMNS ? left : COLUMNS;
-        hold_lines(l, m, p, plane + x, count);
+        hold_lines(l, m, p, plane, x, count);
         weigh_columns(l, m, p, x, count);
     }
 }
@@ -186,17 +197,17 @@ static void fill_chroma(const wf_light *l, const rows_made *m, int y, float *con
             memcpy(rgb[p], rgb[0], bytes);
 }
 
-static void light_row(const wf_light *l, const rows_made *m, const uint16_t *luma, int y,
+static void light_row(const wf_light *l, const rows_made *m, const void *luma, int y,
                       float *const rgb[3]) {
     size_t width = (size_t)l->width_px;
-    l->loops->signals(rgb[0], luma + (size_t)y * width, l->zero[0], l->scale, width);
+    take_signals(l, rgb[0], luma, 0, (size_t)y * width, width);
     fill_chroma(l, m, y, rgb);
     if (l->meaning.ycbcr) l->loops->rgb(&l->matrix, rgb[0], rgb[1], rgb[2], width);
     if (l->decode.apply) l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
 }
 
-void wf_light_rows(const wf_light *l, const uint16_t *const plane[3], int y0, int y1,
-                   void *scratch, float *const rgb[3]) {
+void wf_light_rows(const wf_light *l, const void *const plane[3], int y0, int y1, void *scratch,
+                   float *const rgb[3]) {
     const rows_made m = lay_out(l, y0, y1, scratch);
     for (int p = 1; l->has_chroma && p < 3; p++) bring_down(l, &m, p, plane[p]);
     for (int y = y0; y < y1; y++) {

@@ -19,9 +19,10 @@ void wf_light_free(wf_light *light); /* NULL is fine */
 #define WF_LIGHT_ROWS 16
 size_t wf_light_scratch(const wf_light *light);
 
-/* Rows y0 <= y < y1 of the picture whose codes are in plane, [lines][width_px] each, to
- * rgb[c][(y - y0) width_px]. The bits do not depend on which rows are made together. */
-void wf_light_rows(const wf_light *light, const uint16_t *const plane[3], int y0, int y1,
+/* Rows y0 <= y < y1 of the picture whose codes, of wf_video_code_bytes each, are in plane,
+ * [lines][width_px] each, to rgb[c][(y - y0) width_px]. The bits do not depend on which rows
+ * are made together. */
+void wf_light_rows(const wf_light *light, const void *const plane[3], int y0, int y1,
                    void *scratch, float *const rgb[3]);
 
 #endif

@@ -6,7 +6,7 @@
 
 typedef struct slot {
     int64_t number; /* -1: it is free; AHEAD: its picture is not taken yet */
-    uint16_t *code; /* of all planes */
+    uint8_t *code;  /* of all planes */
 } slot;
 
 /* What decoding one picture more has given. */
@@ -27,16 +27,12 @@ struct wf_video_window {
     int planned, read, taken;  /* of ahead */
     slot *slot;
     size_t slots, most_slots;
-    size_t samples[3]; /* of each plane */
+    size_t bytes[3]; /* of each plane */
     int64_t next, end;
 };
 
-static size_t picture_samples(const wf_video_window *w) {
-    return w->samples[0] + w->samples[1] + w->samples[2];
-}
-
 size_t wf_video_window_picture_bytes(const wf_video_window *w) {
-    return picture_samples(w) * sizeof(uint16_t);
+    return w->bytes[0] + w->bytes[1] + w->bytes[2];
 }
 
 weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_window **out,
@@ -49,10 +45,11 @@ weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_win
     w->video = video;
     w->end = -1;
     w->ticks = INT64_MIN;
-    for (int p = 0; p < wf_video_info_of(video)->planes; p++) {
+    const wf_video_info *info = wf_video_info_of(video);
+    for (int p = 0; p < info->planes; p++) {
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);
-        w->samples[p] = (size_t)width * (size_t)lines;
+        w->bytes[p] = (size_t)width * (size_t)lines * wf_video_code_bytes(info);
     }
     w->most_slots = most_bytes / wf_video_window_picture_bytes(w);
     return WEFT_OK;
@@ -114,16 +111,16 @@ static weft_status free_slot(wf_video_window *w, slot **out, weft_error *err) {
     return add_slot(w, out, err);
 }
 
-static void planes_of(const wf_video_window *w, uint16_t *code, uint16_t *plane[3]) {
+static void planes_of(const wf_video_window *w, uint8_t *code, void *plane[3]) {
     for (int p = 0; p < 3; p++) {
         plane[p] = code;
-        code += w->samples[p];
+        code += w->bytes[p];
     }
 }
 
 static outcome decode(wf_video_window *w, const slot *to) {
     outcome o = {.ticks = INT64_MIN};
-    uint16_t *plane[3];
+    void *plane[3];
     if (to) planes_of(w, to->code, plane);
     o.status = wf_video_next_codes(w->video, to ? plane : NULL, &o.more, &o.error);
     if (o.status || !o.more) return o;
@@ -200,10 +197,10 @@ weft_status wf_video_window_check_whole(const wf_video_window *w, weft_error *er
     return wf_video_check_whole(w->video, err);
 }
 
-bool wf_video_window_find(const wf_video_window *w, int64_t number, const uint16_t *plane[3]) {
+bool wf_video_window_find(const wf_video_window *w, int64_t number, const void *plane[3]) {
     for (size_t i = 0; i < w->slots; i++) {
         if (w->slot[i].number != number) continue;
-        uint16_t *found[3];
+        void *found[3];
         planes_of(w, w->slot[i].code, found);
         for (int p = 0; p < 3; p++) plane[p] = found[p];
         return true;

@@ -45,8 +45,8 @@ weft_status wf_video_window_jump(wf_video_window *window, int64_t number, weft_e
 /* wf_video_check_whole. */
 weft_status wf_video_window_check_whole(const wf_video_window *window, weft_error *err);
 
-/* The codes of a picture that is kept, until it is forgotten; false: it is not. */
-bool wf_video_window_find(const wf_video_window *window, int64_t number,
-                          const uint16_t *plane[3]);
+/* The codes of a picture that is kept, of wf_video_code_bytes each, until it is forgotten;
+ * false: it is not. */
+bool wf_video_window_find(const wf_video_window *window, int64_t number, const void *plane[3]);
 
 #endif

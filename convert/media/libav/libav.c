@@ -376,17 +376,25 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
 
 /* ---- Reading ---- */
 
-/* One line of a component, whose codes lie one after the other in most formats: these are taken
- * as they are, or bytes are widened. */
-static const uint16_t *line_codes(const wf_video *v, int p, int y) {
-    reading *r = v->state;
+/* The codes of a line of a component, which lie one after the other in most formats: bytes or,
+ * where they have more than 8 bits, pairs of them; else NULL. */
+static const uint8_t *plain_line(const wf_video *v, int p, int y) {
+    const reading *r = v->state;
     const AVFrame *f = r->frame;
     const AVComponentDescriptor *c = &r->pixels->comp[p];
     const uint8_t *line = f->data[c->plane] + (ptrdiff_t)y * f->linesize[c->plane] + c->offset;
     bool plain = !c->shift && !(r->pixels->flags & AV_PIX_FMT_FLAG_BE);
-    if (plain && c->step == 2 && c->depth > 8 && (uintptr_t)line % 2 == 0)
-        return (const uint16_t *)(const void *)line;
-    if (plain && c->step == 1 && c->depth == 8)
+    bool pairs = c->step == 2 && c->depth > 8 && (uintptr_t)line % 2 == 0;
+    return plain && (pairs || (c->step == 1 && c->depth == 8)) ? line : NULL;
+}
+
+/* One line of a component: plain ones are taken as they are, or bytes are widened. */
+static const uint16_t *line_codes(const wf_video *v, int p, int y) {
+    reading *r = v->state;
+    const AVFrame *f = r->frame;
+    const uint8_t *line = plain_line(v, p, y);
+    if (line && r->pixels->comp[p].depth > 8) return (const uint16_t *)(const void *)line;
+    if (line)
         for (int x = 0; x < v->frame.width_px[p]; x++) r->code[x] = line[x];
     else
         av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0, y, p,
@@ -396,9 +404,16 @@ static const uint16_t *line_codes(const wf_video *v, int p, int y) {
 
 /* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
 static void take_frame(wf_video *v) {
+    bool bytes = v->take_codes && wf_video_code_bytes(&v->info) == 1;
     for (int p = 0; p < v->info.planes; p++)
-        for (int y = 0; y < v->frame.lines[p]; y++)
-            wf_video_take_codes(v, p, y, line_codes(v, p, y + v->info.interval_lines));
+        for (int y = 0; y < v->frame.lines[p]; y++) {
+            int from = y + v->info.interval_lines;
+            const uint8_t *line = bytes ? plain_line(v, p, from) : NULL;
+            if (line)
+                wf_video_take_bytes(v, p, y, line);
+            else
+                wf_video_take_codes(v, p, y, line_codes(v, p, from));
+        }
 }
 
 /* How long the stream states to be; 0 if it does not. Matroska keeps that in a tag. */

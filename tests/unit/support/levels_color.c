@@ -159,6 +159,27 @@ static void fine_signals(level_run *r) {
     signals(r, true);
 }
 
+static void of_bytes(level_run *r, bool fine) {
+    uint8_t *code = (uint8_t *)level_halves(r, r->count);
+    float *out = level_floats(r, r->count);
+    double zero = 16, per_code = level_draw(r) % 2 ? 1 : 1 / 219.0;
+    const wf_upsample_ops *ops = upsample_at(r);
+    if (!r->plain)
+        (fine ? &ops->fine : &ops->quick)->of_bytes(out, code, zero, per_code, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        out[i] = fine ? (float)((code[i] - zero) * per_code)
+                      : ((float)code[i] - 16.0f) * (float)per_code;
+    level_keep_floats(r, out, r->count);
+}
+
+static void quick_of_bytes(level_run *r) {
+    of_bytes(r, false);
+}
+
+static void fine_of_bytes(level_run *r) {
+    of_bytes(r, true);
+}
+
 /* Along a line, whose ends are memory's, or down columns. */
 static void weigh(level_run *r, bool fine) {
     wf_upsampler u;
@@ -248,11 +269,13 @@ static void interleave(level_run *r) {
 
 static const level_row upsample_rows[] = {
     {"quick.signals", quick_signals, true, 0},
+    {"quick.of_bytes", quick_of_bytes, true, 0},
     {"quick.weigh", quick_weigh, true, 4e-7},
     {"quick.weigh_pair", quick_weigh_pair, true, 0},
     {"fine.weigh_pair", fine_weigh_pair, true, 0},
     {"quick.rgb", quick_rgb, true, 3e-7},
     {"fine.signals", fine_signals, true, 0},
+    {"fine.of_bytes", fine_of_bytes, true, 0},
     {"fine.weigh", fine_weigh, true, 0},
     {"fine.rgb", fine_rgb, true, 0},
     {"upsample.interleave", interleave, true, 0},

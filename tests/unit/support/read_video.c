@@ -5,15 +5,14 @@
 
 #include "convert/video/light.h"
 
-static void make_rows(const wf_light *light, const wf_video_info *info,
-                      uint16_t *const plane[3]) {
+static void make_rows(const wf_light *light, const wf_video_info *info, void *const plane[3]) {
     size_t width = (size_t)info->width_px;
     void *scratch = malloc(wf_light_scratch(light));
     float *rgb = malloc(3 * width * sizeof *rgb);
     if (!scratch || !rgb) abort();
     for (int y = 0; y < info->lines; y++)
-        wf_light_rows(light, (const uint16_t *[3]){plane[0], plane[1], plane[2]}, y, y + 1,
-                      scratch, (float *[3]){rgb, rgb + width, rgb + 2 * width});
+        wf_light_rows(light, (const void *[3]){plane[0], plane[1], plane[2]}, y, y + 1, scratch,
+                      (float *[3]){rgb, rgb + width, rgb + 2 * width});
     free(scratch);
     free(rgb);
 }
@@ -22,13 +21,13 @@ weft_status read_video(wf_video *video, int pictures, weft_error *err) {
     const wf_video_info *info = wf_video_info_of(video);
     wf_meaning meaning;
     wf_light *light = NULL;
-    uint16_t *plane[3] = {NULL};
+    void *plane[3] = {NULL};
     weft_status status = wf_meaning_of(info, "video", &meaning, err);
     if (!status) status = wf_light_new(info, &meaning, NULL, &light, err);
     for (int p = 0; p < 3; p++) {
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);
-        plane[p] = malloc((size_t)width * (size_t)lines * sizeof *plane[p] + 1);
+        plane[p] = malloc((size_t)width * (size_t)lines * wf_video_code_bytes(info) + 1);
         if (!plane[p]) abort();
     }
     bool more = true;

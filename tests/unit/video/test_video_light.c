@@ -14,7 +14,20 @@
 #include "color/codes/upsample.h"
 #include "convert/video/light.h"
 
-enum { WIDTH = 64, LINES = 48, SAMPLES = WIDTH * LINES };
+enum { WIDTH = 64, LINES = 48, SAMPLES = WIDTH * LINES, MOST_CODES = 4096 };
+
+/* wf_light_rows of planes of `codes` samples, which are kept in bytes where they have room. */
+static void rows_of(const wf_light *light, const wf_video_info *info, uint16_t *const code[3],
+                    size_t codes, int y0, int y1, void *scratch, float *const out[3]) {
+    static uint8_t narrow[3][MOST_CODES];
+    const void *plane[3] = {code[0], code[1], code[2]};
+    assert_true(codes <= MOST_CODES);
+    for (int p = 0; p < 3 && wf_video_code_bytes(info) == 1; p++) {
+        for (size_t i = 0; i < codes; i++) narrow[p][i] = (uint8_t)code[p][i];
+        plane[p] = narrow[p];
+    }
+    wf_light_rows(light, plane, y0, y1, scratch, out);
+}
 
 /* ---- Formulas ---- */
 
@@ -85,8 +98,8 @@ static void check_depth(int bits, int full, int matrix, int transfer, int rgb) {
     for (int round = 0; round < 50; round++) {
         for (int p = 0; p < 3; p++)
             for (int x = 0; x < WIDTH; x++) code[p][x] = (uint16_t)random_code(bits);
-        wf_light_rows(light, (const uint16_t *[3]){code[0], code[1], code[2]}, 0, 1, scratch,
-                      (float *[3]){out[0], out[1], out[2]});
+        rows_of(light, &info, (uint16_t *[3]){code[0], code[1], code[2]}, WIDTH, 0, 1, scratch,
+                (float *[3]){out[0], out[1], out[2]});
         for (int x = 0; x < WIDTH; x++) {
             double s[3], want[3];
             for (int p = 0; p < 3; p++) s[p] = signal_of(code[p][x], bits, full, !rgb && p);
@@ -185,8 +198,8 @@ static void check_420(wf_siting siting, double left, double top) {
             code[1][y * WIDTH / 2 + x] = (uint16_t)lrint(
                 32768 + 14336 * cos(.3 * (2 * x + left)) * cos(.25 * (2 * y + top)));
     for (int y = 20; y < LINES - 20; y++) {
-        wf_light_rows(light, (const uint16_t *[3]){code[0], code[1], code[2]}, y, y + 1,
-                      scratch, (float *[3]){out[0], out[1], out[2]});
+        rows_of(light, &info, (uint16_t *[3]){code[0], code[1], code[2]}, SAMPLES, y, y + 1,
+                scratch, (float *[3]){out[0], out[1], out[2]});
         for (int x = 24; x < WIDTH - 24; x++) {
             double cb = .25 * cos(.3 * x) * cos(.25 * y);
             double want = (32768 - 4096) / 56064. + 2 * (1 - .0722) * cb;
@@ -330,8 +343,8 @@ static double check_sampling(const wf_video_info *info) {
     for (int y = 0; y < HIGH; y++) {
         int y0 = y - y % 7, y1 = y0 + 7 < HIGH ? y0 + 7 : HIGH;
         if (y == y0)
-            wf_light_rows(light, (const uint16_t *[3]){code[0], code[1], code[2]}, y0, y1,
-                          scratch, (float *[3]){out[0], out[1], out[2]});
+            rows_of(light, info, (uint16_t *[3]){code[0], code[1], code[2]}, WIDE * HIGH, y0,
+                    y1, scratch, (float *[3]){out[0], out[1], out[2]});
         size_t at = (size_t)(y - y0) * WIDE;
         worst = fmax(worst, row_error(plane, info, y,
                                       (float *[3]){out[0] + at, out[1] + at, out[2] + at}));
