@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whether `--error E` keeps what it says, on scenes that were made to fool it and on those that ship.
 
-    tests/bench/error.py BUILD [--scenes a,b] [--errors .02,.005] [--apertures box,shaped] [--out DIR]
+    tests/bench/error.py BUILD [--scenes a,b] [--errors .02,.005] [--apertures box,shaped] [--small] [--out DIR]
 
 Truth is the mean of two renders of many samples that know nothing of each other, and is kept in DIR for
 the next run, as are renders of fixed numbers of samples, which say what an error costs without
@@ -104,19 +104,20 @@ def at_rms(rows, rms, column):
     return rows[-1][column]
 
 
-def judge(case, error, seed):
-    rows = case.fixed()
+def judge(case, error, seed, costs):
+    rows = case.fixed() if costs else [(1, 1, 1)] * 2
     picture, report, cpu, status = case.render(f"error", "--error", error, "--seed", seed)
     found = case.compare(picture, error)
     rms, says = case.true_rms(found), report["tracer"]["error_estimate"]
     samples = report["tracer"]["samples"]
-    cells = 2 * 64 * 48  # in each of two fields
+    width, lines = map(int, case.job[2].split("@")[0].split("x"))
+    cells = 2 * width * lines  # in each of two fields
     faults = []
     if found[4] < .99:
         faults.append("outside")
     if rms > error:
         faults.append("RMS")
-    if rms < error / 4 and samples > 9 * cells:
+    if costs and rms < error / 4 and samples > 9 * cells:
         faults.append("fine")
     if says < .95 * rms:
         faults.append("says")
@@ -125,13 +126,14 @@ def judge(case, error, seed):
     dear = samples / at_rms(rows, rms, 1)
     idle = rows[0][2]  # nearly all of it: two samples a cell
     slow = max(cpu - idle, 1e-3) / max(at_rms(rows, rms, 2) - idle, 1e-3)
-    if dear > 1.1 and samples > 9 * cells:
+    if costs and dear > 1.1 and samples > 9 * cells:
         faults.append("dear")
     if status:
         faults.append(f"exit{status}")
+    ratios = (f"x{dear:5.2f}", f"x{slow:5.2f}") if costs else ("", "")
     print(f"{case.name:24}{error:<8g}rms/E {rms / error:5.2f}  says/rms {says / rms:5.2f}  within {100 * found[4]:6.2f}  "
-          f"light {100 * (found[3] - 1):+6.2f} %  samples {samples / cells:7.1f} x{dear:5.2f}  "
-          f"cpu {cpu:6.2f} x{slow:5.2f}  {' '.join(faults)}", flush=True)
+          f"light {100 * (found[3] - 1):+6.2f} %  samples {samples / cells:7.1f} {ratios[0]}  "
+          f"cpu {cpu:6.2f} {ratios[1]}  {' '.join(faults)}", flush=True)
     return faults
 
 
@@ -143,6 +145,7 @@ def main():
     ask.add_argument("--apertures", default="box,shaped")
     ask.add_argument("--raster", default=RASTER)
     ask.add_argument("--truth", type=int, default=4096, help="samples a cell of the truth")
+    ask.add_argument("--small", action="store_true", help="what is kept alone, not what it costs")
     ask.add_argument("--seed", type=int, default=7)
     ask.add_argument("--out", default="/tmp/weft-error")
     options = ask.parse_args()
@@ -153,7 +156,7 @@ def main():
             case = Case(options, name, files[name], aperture)
             case.converge()
             for error in map(float, options.errors.split(",")):
-                bad += bool(judge(case, error, options.seed))
+                bad += bool(judge(case, error, options.seed, not options.small))
     print(f"{bad} rows with faults")
     return bad > 0
 

@@ -11,6 +11,7 @@
 #include "tracer/sample/adaptive_lines.h"
 #include "tracer/sample/adaptive_points.h"
 #include "tracer/sample/adaptive_pool.h"
+#include "tracer/sample/adaptive_specks.h"
 
 /* Samples of a quarter to begin with, and the error from which on cells about the tile make no
  * difference. */
@@ -51,7 +52,7 @@ static double wanted(const wf_adaptive *a, int at) {
 }
 
 static bool needs_many(const wf_adaptive *a, int at) {
-    return !a->edge[at].found &&
+    return !a->edge[at].found && !a->cell[at].rare &&
            WF_QUARTERS * a->cell[at].each * (wanted(a, at) - 1) > EDGE_SAMPLES;
 }
 
@@ -82,6 +83,10 @@ static int wants_samples(const wf_adaptive *a, int at) {
     if (was >= WF_MOST_EACH || a->cell[at].need <= TOLERATED * wf_adaptive_target(a)) return 0;
     while (M_SQRT2 * each <= most && 2 * each <= WF_MOST_EACH) each *= 2;
     return each;
+}
+
+static int wants_sight(const wf_adaptive *a, int at) {
+    return a->cell[at].first > a->cell[at].each ? a->cell[at].first : 0;
 }
 
 /* Among the tile's own cells, or those about it, too. */
@@ -151,11 +156,31 @@ static bool find_edges(wf_adaptive *a) {
     return true;
 }
 
-static bool sample(wf_adaptive *a) {
-    if (!draw_round(a) || !find_edges(a)) return false;
+/* Cells that stop by what they alone see would be too dark: as many samples as they had, which
+ * know nothing of that, take the place of those. */
+static bool draw_rare_again(wf_adaptive *a) {
+    bool any = false;
+    for (int at = 0; at < GRID_CELLS; at++) {
+        a->more[at] = a->cell[at].rare ? a->cell[at].each : 0;
+        any |= a->cell[at].rare;
+    }
+    if (!any) return true;
+    wf_points_drop_rare(a);
+    return draw_round(a);
+}
+
+static bool draw_specks(wf_adaptive *a) {
+    wf_specks_find(a);
+    return !choose(a, false, wants_sight) || draw_round(a);
+}
+
+static bool sample(wf_adaptive *a, bool empty) {
+    if (!draw_round(a)) return false;
+    if (empty) return true;
+    if (!draw_specks(a) || !find_edges(a)) return false;
     while (choose(a, false, wants_samples))
         if (!draw_round(a) || !find_edges(a)) return false;
-    return true;
+    return draw_rare_again(a);
 }
 
 /* ---- Tiles ---- */
@@ -201,11 +226,11 @@ static void sum_errors(const wf_adaptive *a) {
     }
 }
 
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end) {
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty) {
     wf_adaptive a = {
         .tile = tile, .s = tile->s, .c = tile->c, .first = first, .caution = WF_FIRST_CAUTION};
     begin(&a, end);
-    if (!sample(&a)) return false;
+    if (!sample(&a, empty)) return false;
     sum_errors(&a);
     return wf_points_emit(&a) && wf_edges_emit(&a);
 }

@@ -7,7 +7,8 @@
 int wf_adaptive_about(const wf_sampling *s);
 
 /* Samples rows first <= j < end of a tile as its error asks, hands them to the receiver, and
- * adds what error is left to the scratch's. False: no memory. */
-bool wf_adaptive_tile(const wf_tile *tile, int first, int end);
+ * adds what error is left to the scratch's. empty: nothing but background is seen. False: no
+ * memory. */
+bool wf_adaptive_tile(const wf_tile *tile, int first, int end, bool empty);
 
 #endif

@@ -18,7 +18,10 @@
 typedef struct wf_adaptive_cell {
     bool there;                 /* it has samples */
     bool own;                   /* it is the tile's, and not one about it */
+    bool rare;                  /* what it may hold is seen by hardly any other cell */
+    int first;                  /* samples of each quarter that see what it may hold */
     int each;                   /* samples of each quarter */
+    int set;                    /* which of the sampler's sets they are of */
     double sum[WF_QUARTERS][3]; /* of their light, beyond what its edge, if found, says */
     double square[3];           /* sums of its square */
     double expected[3];         /* sums of what its edge says where its samples are */

@@ -80,8 +80,8 @@ static bool draw(wf_adaptive *a, int at, int quarter, int from, int count) {
     wf_adaptive_samples *k = &a->c->kept;
     if (!wf_points_reserve(k, (size_t)count)) return false;
     size_t first = k->count;
-    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, 0), from, count, k->x + first,
-                         k->y + first, k->fraction + first);
+    wf_sampler_draw_more(a->s->sampler, cell_of(a, at, a->cell[at].set), from, count,
+                         k->x + first, k->y + first, k->fraction + first);
     for (size_t n = first; n < first + (size_t)count; n++) {
         place(a, k, at, n);
         k->cell[n] = at * WF_QUARTERS + quarter;
@@ -287,6 +287,22 @@ static void drop_about(const wf_adaptive *a, wf_adaptive_samples *k) {
     k->count = 0;
     for (size_t n = 0; n < count; n++)
         if (a->cell[k->cell[n] / WF_QUARTERS].own) copy_sample(k, n, k);
+}
+
+void wf_points_drop_rare(wf_adaptive *a) {
+    wf_adaptive_samples *k = &a->c->kept;
+    size_t count = k->count;
+    k->count = 0;
+    for (size_t n = 0; n < count; n++)
+        if (!a->cell[k->cell[n] / WF_QUARTERS].rare) copy_sample(k, n, k);
+    for (int at = 0; at < GRID_CELLS; at++) {
+        wf_adaptive_cell *c = &a->cell[at];
+        if (!c->rare) continue;
+        memset(c->sum, 0, sizeof c->sum);
+        memset(c->square, 0, sizeof c->square);
+        c->each = 0;
+        c->set = WF_SECOND_SET;
+    }
 }
 
 /* Takes out the samples of cells whose edge is known, into `rest`, less what the edge says. */

@@ -7,6 +7,10 @@
  * adds their light to its sums. False: no memory. */
 bool wf_points_draw(wf_adaptive *a);
 
+/* Forgets the samples of rare cells: their next ones are of another set. */
+#define WF_SECOND_SET 2
+void wf_points_drop_rare(wf_adaptive *a);
+
 /* Adds up all cells' samples again, once edges were found or forgotten. */
 void wf_points_add_again(wf_adaptive *a);
 

@@ -134,7 +134,8 @@ static double cut_of(const wf_adaptive *a, const pool *p, int at, const double m
  * few samples to count. */
 static double beside(const pool *p, int at, int right, int down) {
     const wf_adaptive_cell *c = wf_cell_beside(p->a, at, right, down);
-    return c && (c->own || !p->a->cell[at].own) ? p->one[c - p->a->cell] : -1;
+    if (!c || (!c->own && p->a->cell[at].own)) return -1;
+    return c->rare && !p->a->cell[at].rare ? -1 : p->one[c - p->a->cell];
 }
 
 /* Of edges that come in from cells beside and were not found here: what those saw without them.
@@ -237,10 +238,12 @@ static bool is_plain(const pool *p, int at, double one) {
            has_edge_near(p->a, at);
 }
 
-/* Cells about the tile are hardly in any pool, and what they say biases nothing. */
+/* Cells about the tile are hardly in any pool, and what they say biases nothing; rare ones are
+ * sampled again. */
 static double need_of(const pool *p, int at) {
     const wf_adaptive *a = p->a;
-    double count = WF_QUARTERS * a->cell[at].each, own = a->cell[at].own ? OF_OWN : 1;
+    double count = WF_QUARTERS * a->cell[at].each;
+    double own = a->cell[at].own && !a->cell[at].rare ? OF_OWN : 1;
     double one = fmax(mean_about(p, at), fmax(OF_PAIR * largest_pair(p, at), own * p->one[at]));
     double missed = largest_hidden(p, at) / (2 * count * count);
     double seen =

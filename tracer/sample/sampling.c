@@ -180,9 +180,9 @@ static bool is_wanted(const wf_tile *t, int first, int end, const float *all, bo
 
 /* What an adaptive tile leaves uncertain is noted, and counts again where the tile is used
  * again. Nothing is uncertain of background. */
-static bool adapt(wf_tile *t, int first, int end) {
+static bool adapt(wf_tile *t, int first, int end, bool empty) {
     wf_error_sum *sum = &t->c->error, before = *sum;
-    if (!wf_adaptive_tile(t, first, end)) return false;
+    if (!wf_adaptive_tile(t, first, end, empty)) return false;
     t->s->tile_error[tile_index(t, first)] =
         (wf_error_sum){sum->square - before.square, sum->cells - before.cells};
     return true;
@@ -209,7 +209,7 @@ static bool trace_tile(wf_tile *t, int first, int end) {
         return true;
     }
     if (!wf_trace_prepare(t->s->tracer, t->c->trace, x, y, &empty)) return false;
-    if (adapts(t->s)) return adapt(t, first, end);
+    if (adapts(t->s)) return adapt(t, first, end, empty);
     return t->s->instants ? wf_fixed_instants(t, first, end) : wf_fixed_rows(t, first, end);
 }
 
