@@ -126,7 +126,7 @@ static const wf_option_row rows[] = {
     ROW(scene, SCENES, "scene-steps", "N", "200000000",
         "How many steps the scene's script may take.", set_whole, AT(scene_steps),
         FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
-    ROW(scene, SCENES, "scene-memory", "SIZE", "1G", "How much memory the scene may take.",
+    ROW(scene, SCENES, "scene-memory", "SIZE", "2G", "How much memory the scene may take.",
         set_size, AT(scene_memory_bytes), INITIAL),
 
     ROW(color, VIDEO, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.",

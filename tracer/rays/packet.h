@@ -42,7 +42,7 @@ typedef struct wf_packet_ops {
     /* How far rounding may reach along each ray for the size of where it starts: a share of
      * origin over direction. */
     void (*rounding)(const wf_rays *rays, double share, double *rounding);
-    double (*farthest)(const double *s, int count);
+    double (*farthest)(const double *s, int count); /* s aligned as in hits */
     void (*no_second_run)(wf_runs *runs, int count);
     /* The boxes of all origins and directions. */
     void (*box)(const wf_rays *rays, wf_bounds *o, wf_bounds *d);

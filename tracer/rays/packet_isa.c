@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "filters/base/isa_file.h"
+#include "tracer/rays/lanes.h"
 #include "tracer/rays/packet.h"
 #include "tracer/rays/sincos.h"
 
@@ -193,21 +194,19 @@ static void nearer_one(const wf_runs *runs, int most_runs, double rounding, int 
 
 /* ---- Boxes ---- */
 
-/* Eight at a time: of a single running minimum the compiler makes no vector. */
 static void span(const double *v, int count, double *low, double *high) {
-    double a[8], b[8];
-    for (int k = 0; k < 8; k++) a[k] = b[k] = v[k];
-    for (int i = 8; i < count; i += 8)
-        for (int k = 0; k < 8; k++) {
-            a[k] = v[i + k] < a[k] ? v[i + k] : a[k];
-            b[k] = v[i + k] > b[k] ? v[i + k] : b[k];
-        }
-    for (int k = 1; k < 8; k++) {
-        a[0] = a[k] < a[0] ? a[k] : a[0];
-        b[0] = b[k] > b[0] ? b[k] : b[0];
+    lanes least = *(const lanes *)v, most = least;
+    for (int i = 8; i < count; i += 8) {
+        lanes next = *(const lanes *)(v + i);
+        least = smaller(next, least);
+        most = larger(next, most);
     }
-    *low = a[0];
-    *high = b[0];
+    *low = least[0];
+    *high = most[0];
+    for (int k = 1; k < 8; k++) {
+        *low = least[k] < *low ? least[k] : *low;
+        *high = most[k] > *high ? most[k] : *high;
+    }
 }
 
 static void box(const wf_rays *r, wf_bounds *o, wf_bounds *d) {

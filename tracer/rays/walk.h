@@ -12,7 +12,7 @@
 /* As many boxes as `used` has bits. */
 typedef struct wf_tree_node {
     _Alignas(64) double plane[6][WF_TREE_WIDTH]; /* low x, y, z and high x, y, z */
-    int32_t child[WF_TREE_WIDTH]; /* a node, or ~place, one of the tree's items */
+    int32_t child[WF_TREE_WIDTH]; /* all nodes, or all ~place, of the tree's items */
     uint32_t used;
 } wf_tree_node;
 

@@ -4,55 +4,7 @@
 #include <math.h>
 
 #include "filters/base/isa_file.h"
-
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
-
-/* ---- Eight boxes side by side ---- */
-
-typedef double lanes __attribute__((vector_size(64), may_alias));
-typedef int64_t lane_mask __attribute__((vector_size(64), may_alias));
-
-/* Vectors are passed between functions of this file only, which are inlined. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#if defined(__AVX512F__)
-static inline lanes larger(lanes a, lanes b) {
-    return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
-}
-
-static inline lanes smaller(lanes a, lanes b) {
-    return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
-}
-
-static inline unsigned not_over(lanes a, lanes b) {
-    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
-}
-#else
-/* b where a is no number, as the processor's own maximum is. */
-static inline lanes larger(lanes a, lanes b) {
-    lane_mask over = a > b;
-    return (lanes)(((lane_mask)a & over) | ((lane_mask)b & ~over));
-}
-
-static inline lanes smaller(lanes a, lanes b) {
-    lane_mask under = a < b;
-    return (lanes)(((lane_mask)a & under) | ((lane_mask)b & ~under));
-}
-
-/* A bit for each lane where a <= b. */
-static inline unsigned not_over(lanes a, lanes b) {
-    lane_mask mask = a <= b;
-    unsigned bits = 0;
-    for (unsigned k = 0; k < WF_TREE_WIDTH; k++) bits |= (unsigned)mask[k] & 1u << k;
-    return bits;
-}
-#endif
-
-static inline lanes of(double v) {
-    return v - (lanes){0};
-}
+#include "tracer/rays/lanes.h"
 
 /* What waits to be looked at. */
 typedef struct stop {
@@ -117,6 +69,16 @@ static inline int add_stops(const wf_tree_node *node, unsigned met, const double
     return count;
 }
 
+/* Those items of stops from first on that are near enough, the last first. */
+static inline bool meet_items(const stop *stops, int first, int count, wf_walk *w) {
+    while (count > first) {
+        const stop *s = &stops[--count];
+        if (s->near <= w->most && !w->meet(w->user, w, ~s->node, s->near)) return false;
+    }
+    return true;
+}
+
+/* Children are all items, or all nodes. */
 static bool go(const wf_tree *tree, wf_walk *w) {
     stop stops[WF_TREE_DEPTH * WF_TREE_WIDTH];
     int count = 0;
@@ -127,13 +89,14 @@ static bool go(const wf_tree *tree, wf_walk *w) {
         stop s = stops[--count];
         lanes near;
         if (s.near > w->most) continue;
-        if (s.node < 0) {
-            if (!w->meet(w->user, w, ~s.node, s.near)) return false;
-            continue;
-        }
         const wf_tree_node *node = &tree->nodes[s.node];
         unsigned met = meet_boxes(node, &r, w->most, &near);
-        count = add_stops(node, met, (const double *)&near, stops, count);
+        if (!met) continue;
+        int more = add_stops(node, met, (const double *)&near, stops, count);
+        if (node->child[0] >= 0)
+            count = more;
+        else if (!meet_items(stops, count, more, w))
+            return false;
     }
     return true;
 }

@@ -215,7 +215,8 @@ static void rounding(level_run *r) {
 }
 
 static void farthest(level_run *r) {
-    double s[WF_PACKET], most;
+    _Alignas(64) double s[WF_PACKET];
+    double most;
     fill(r, s);
     most = packet(r)->farthest(s, drawn_count(r));
     level_keep_doubles(r, &most, 1);
@@ -400,12 +401,12 @@ static bool meet(void *user, wf_walk *walk, int item, double near) {
     return item % 13 > 0;
 }
 
-/* A root with nodes in half of its places, and items in the others and in theirs. */
+/* A root over four nodes, each of which it has twice. */
 static void fill_tree(level_run *r, wf_tree_node *nodes) {
-    for (int n = 0, next = 1; n < 5; n++) {
+    for (int n = 0; n < 5; n++) {
         nodes[n].used = level_draw(r) & 255;
         for (int k = 0; k < WF_TREE_WIDTH; k++) {
-            nodes[n].child[k] = !n && k % 2 ? next++ : ~(8 * n + k);
+            nodes[n].child[k] = n ? ~(8 * n + k - 8) : 1 + k % 4;
             for (int axis = 0; axis < 3; axis++) {
                 nodes[n].plane[axis][k] = level_uniform(r, -2, 2);
                 nodes[n].plane[3 + axis][k] = nodes[n].plane[axis][k] + level_uniform(r, 0, 3);
@@ -416,7 +417,7 @@ static void fill_tree(level_run *r, wf_tree_node *nodes) {
 
 static void walk_tree(level_run *r) {
     wf_tree_node nodes[5];
-    const wf_tree tree = {nodes, NULL, 5, 40, 5};
+    const wf_tree tree = {nodes, NULL, 5, 32, 5};
     walked w = {.count = 0};
     wf_walk walk = {.most = level_draw(r) % 2 ? HUGE_VAL : 3, .meet = meet, .user = &w};
     fill_tree(r, nodes);
@@ -433,11 +434,11 @@ static void walk_tree(level_run *r) {
 
 static void find_in_tree(level_run *r) {
     wf_tree_node nodes[5];
-    int items[40], found[40];
-    const wf_tree tree = {nodes, items, 5, 40, 5};
+    int items[32], found[64];
+    const wf_tree tree = {nodes, items, 5, 32, 5};
     wf_shaft shaft = {.most = level_draw(r) % 2 ? HUGE_VAL : 3};
     fill_tree(r, nodes);
-    for (int k = 0; k < 40; k++) items[k] = 100 + k;
+    for (int k = 0; k < 32; k++) items[k] = 100 + k;
     for (int axis = 0; axis < 3; axis++) {
         shaft.o.low[axis] = level_uniform(r, -3, 3),
         shaft.d.low[axis] = level_uniform(r, -1, 1);
