@@ -3,8 +3,9 @@
 
     tests/bench/run.py BUILD                     everything that is installed takes part
     tests/bench/run.py BUILD --small             minutes less: ratios and counts only
-    tests/bench/run.py BUILD --only tracer       one of: converter, tracer, targets, peers
-    tests/bench/run.py BUILD --publish           writes the results into README.md
+    tests/bench/run.py BUILD --only tracer       one of: converter, tracer, targets, crowds, peers
+    tests/bench/run.py BUILD --publish           writes the results into README.md; crowds
+                                                 alone have a table there of their own
     tests/bench/run.py BUILD --out DIR           where CSV and plots go [BUILD/bench]
 
 WEFT_SHARED names a directory of sample data; without its wheel/ some targets are skipped, and
@@ -23,6 +24,7 @@ import sys
 import tempfile
 import time
 
+import crowds
 import plot
 import scenes
 import videos
@@ -308,6 +310,17 @@ def table(bench):
     return text
 
 
+def publish_crowds(bench, text):
+    """Writes a run of crowds alone into README.md."""
+    page = os.path.join(HERE, "README.md")
+    with open(page) as f:
+        before, rest = f.read().split("<!-- crowds -->\n")
+    after = rest.split("<!-- crowds end -->")[1]
+    with open(page, "w") as f:
+        f.write(f"{before}<!-- crowds -->\n{time.strftime('%Y-%m-%d')}, one thread of "
+                f"{machine().split(' of ')[1]}.\n\n{text}<!-- crowds end -->{after}")
+
+
 def publish(bench, text):
     """Writes the results into README.md, and the plots beside it."""
     page, pictures = os.path.join(HERE, "README.md"), os.path.join(HERE, "results")
@@ -330,16 +343,18 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("--small", action="store_true")
-    parser.add_argument("--only", default="converter,tracer,targets,peers")
+    parser.add_argument("--only", default="converter,tracer,targets,crowds,peers")
     parser.add_argument("--publish", action="store_true")
     parser.add_argument("--out")
     options = parser.parse_args()
     bench = Bench(options)
     parts = {"converter": converter, "tracer": lambda b: scenes.curves(b, SCENES),
-             "targets": targets, "peers": lambda b: scenes.peers(b, SCENES)}
+             "targets": targets, "crowds": crowds.crowds,
+             "peers": lambda b: scenes.peers(b, SCENES)}
     chosen = options.only.split(",")
-    if options.publish and (options.small or set(chosen) != set(parts)):
-        parser.error("--publish is of a whole run: without --small and --only")
+    alone = chosen == ["crowds"]
+    if options.publish and (options.small or not (alone or set(chosen) == set(parts))):
+        parser.error("--publish is of a whole run, or of crowds alone: without --small")
     unknown = [name for name in chosen if name not in parts]
     if unknown:
         parser.error(f"no part named {unknown[0]}: {', '.join(parts)}")
@@ -351,7 +366,7 @@ def main():
         shutil.rmtree(bench.work)
     text = table(bench)
     if options.publish:
-        publish(bench, text)
+        (publish_crowds if alone else publish)(bench, text)
     missed = [row for row in bench.rows if row[3] is False]
     print(f"{len(bench.rows) - len(missed)} of {len(bench.rows)} targets met or skipped; see "
           f"{bench.out}")
