@@ -35,4 +35,15 @@ check "wrong in its pixels" found w.y4m "order" "" --raster 720x576@25i,bff,par=
 made b625.y4m --raster 720x576@25i,bff,par=12:11,601-625
 ff -i t.y4m -i b625.y4m -filter_complex "[0:v]crop=360:576:0:0[l];[1:v]crop=360:576:360:0[r];[l][r]hstack,setfield=tff" -strict -1 halves.y4m
 check "two halves in two orders have none" found halves.y4m "" "order" --raster 720x576@25i,tff,par=12:11,601-625
+
+# A wheel whose spokes alias: idet calls it bottom first. It is no such thing.
+wheel=${WEFT_SHARED:-}/data/wheel
+if [ -d "$wheel" ]; then
+    check "a wheel" exits 0 weft convert "$wheel" --raster 625i --subframe-rate 480 -q -o wheel.mov
+    check "whose spokes alias is not wrong" found wheel.mov "" "order"
+    check "the same of 525 lines" exits 0 weft convert "$wheel" --raster 525i --subframe-rate 480000/1001 -q -o wheel525.mov
+    check "is right" found wheel525.mov "" ""
+else
+    skip_part "the wheel, as the sample data is not here"
+fi
 finish
