@@ -121,6 +121,8 @@ typedef struct weft_samples {
     int64_t field;  /* from 0 */
     const float *red, *green, *blue; /* scene-linear */
     const float *weight;             /* NULL: all count alike */
+    const float *alpha; /* by which color is multiplied already; NULL: 1. Color lies over the
+                           background unless the job's alpha-out or key is set */
 } weft_samples;
 
 /* A regular grid of samples at one instant, over a rectangle of the raster: sample (i, j) is at
@@ -129,16 +131,18 @@ typedef struct weft_tile {
     double x0, y0, x1, y1; /* of the raster */
     double t;              /* field periods after the instant of `field` */
     int64_t field;
-    int width, height; /* samples */
-    const float *rgb;  /* [height][width][3], scene-linear */
+    int width, height;  /* samples */
+    const float *rgb;   /* [height][width][3], scene-linear */
+    const float *alpha; /* [height][width], as of weft_samples */
 } weft_tile;
 
-/* A finished field; rgb is valid during the call. */
+/* A finished field; rgb and alpha are valid during the call. */
 typedef struct weft_field {
     int64_t index;                    /* from 0 */
     int first_line, line_step, lines; /* its lines in the frame: first_line + l * line_step */
     int width_px;
-    const float *rgb; /* [lines][width_px][3], scene-linear */
+    const float *rgb;   /* [lines][width_px][3], scene-linear */
+    const float *alpha; /* [lines][width_px]; NULL where neither alpha-out nor key is set */
 } weft_field;
 typedef void weft_field_fn(const weft_field *field, void *user);
 

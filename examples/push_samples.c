@@ -32,7 +32,7 @@ static weft_status render_field(weft_fields *fields, int64_t field, const weft_r
     for (int j = 0; j < raster->lines; j++) {
         render_line(j, field, raster->width_px, raster->lines, v);
         const weft_samples line = {n,         v,         v + n,     v + 2 * n, field,
-                                   v + 3 * n, v + 4 * n, v + 5 * n, NULL};
+                                   v + 3 * n, v + 4 * n, v + 5 * n, NULL,      NULL};
         weft_status status = weft_fields_push(fields, &line, error);
         if (status) return status;
     }

@@ -334,7 +334,8 @@ wf_gather_desc wf_setup_gather(const weft_job *job) {
                             .aperture = job->aperture,
                             .width = wf_setup_width(job),
                             .position = job->shutter_position,
-                            .skew = job->scan_skew};
+                            .skew = job->scan_skew,
+                            .alpha = wf_job_writes_alpha(job)};
 }
 
 /* ---- Report ---- */

@@ -138,7 +138,7 @@ bool wf_job_writes_alpha(const weft_job *job) {
     return job->alpha_out || job->key;
 }
 
-static weft_status check_alpha(const weft_job *job, weft_error *err) {
+weft_status wf_job_check_alpha(const weft_job *job, weft_error *err) {
     bool writes_alpha = wf_job_writes_alpha(job);
     const float *behind = job->background;
     const rule rules[] = {
@@ -187,7 +187,7 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "--resume: standard output cannot be resumed; write to a file"},
     };
     weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
-    if (!status) status = check_alpha(job, err);
+    if (!status) status = wf_job_check_alpha(job, err);
     if (!status) status = check_cadence(job, err);
     return status ? status : check_timecode(job, err);
 }

@@ -103,6 +103,9 @@ weft_status wf_job_check(const weft_job *job, weft_error *err);
 /* Whether alpha goes anywhere: beside the picture, or into a key. */
 bool wf_job_writes_alpha(const weft_job *job);
 
+/* The same of the options of alpha alone. */
+weft_status wf_job_check_alpha(const weft_job *job, weft_error *err);
+
 /* Settles what depends on several options, in a job that wf_job_check passes: the raster takes
  * on the cadence. */
 void wf_job_settle(weft_job *job);

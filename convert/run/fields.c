@@ -22,6 +22,7 @@ struct weft_fields {
     size_t in_hand;     /* gathers */
     int64_t filled;     /* pixels that no sample reached */
     float *rgb;         /* [lines][width][3] of a field */
+    float *alpha;       /* [lines][width]; NULL: it is not gathered */
     float *line;        /* [3][width] */
 };
 
@@ -42,7 +43,9 @@ static weft_status make_buffers(weft_fields *f, weft_error *err) {
     f->gather = calloc((size_t)f->end + 1, sizeof(wf_gather *));
     f->rgb = malloc(row * (size_t)f->job->raster.lines * sizeof *f->rgb);
     f->line = malloc(row * sizeof *f->line);
-    return f->gather && f->rgb && f->line
+    if (f->desc.alpha)
+        f->alpha = malloc(row / 3 * (size_t)f->job->raster.lines * sizeof(float));
+    return f->gather && f->rgb && f->line && (f->alpha || !f->desc.alpha)
                ? WEFT_OK
                : wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
 }
@@ -57,12 +60,14 @@ weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, vo
                        "over, whose times count fields");
     if (job->dry_run)
         return wf_fail(err, WEFT_USAGE, "--dry-run is for weft_job_run: samples are pushed");
+    weft_status status = wf_job_check_alpha(job, err);
+    if (status) return status;
     weft_fields *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
     *f = (weft_fields){.job = job, .fn = fn, .user = user};
     f->desc = wf_setup_gather(job);
     f->end = frames * wf_raster_fields_per_frame(&job->raster);
-    weft_status status = wf_crew_new(job, 1, &f->crew, err);
+    status = wf_crew_new(job, 1, &f->crew, err);
     if (!status) status = make_buffers(f, err);
     if (!status) status = open_output(f, frames, err);
     if (status) {
@@ -81,6 +86,7 @@ void weft_fields_free(weft_fields *f) {
     wf_crew_free(&f->crew);
     free(f->gather);
     free(f->rgb);
+    free(f->alpha);
     free(f->line);
     free(f);
 }
@@ -114,7 +120,8 @@ static void find_ends(const float *t, size_t count, double *low, double *high) {
 }
 
 static bool all_finite(const weft_samples *s) {
-    const float *const arrays[] = {s->x, s->y, s->t, s->red, s->green, s->blue, s->weight};
+    const float *const arrays[] = {s->x,     s->y,    s->t,      s->red,
+                                   s->green, s->blue, s->weight, s->alpha};
     bool finite = true;
     for (size_t n = 0; n < sizeof arrays / sizeof *arrays; n++)
         for (size_t i = 0; arrays[n] && i < s->count; i++)
@@ -122,31 +129,57 @@ static bool all_finite(const weft_samples *s) {
     return finite;
 }
 
-weft_status weft_fields_push(weft_fields *f, const weft_samples *s, weft_error *err) {
-    const wf_samples block = {.count = s->count,
-                              .x = s->x,
-                              .y = s->y,
-                              .t = s->t,
-                              .field = s->field,
-                              .rgb = {s->red, s->green, s->blue},
-                              .weight = s->weight};
+static weft_status gather(weft_fields *f, const wf_samples *block, weft_error *err) {
     double low, high;
     int64_t first, last;
-    if (!s->count) return WEFT_OK;
-    if (!all_finite(s)) return wf_fail(err, WEFT_USAGE, "a sample is not finite");
-    find_ends(s->t, s->count, &low, &high);
-    wf_gather_fields(&f->desc, s->field, low, high, &first, &last);
+    find_ends(block->t, block->count, &low, &high);
+    wf_gather_fields(&f->desc, block->field, low, high, &first, &last);
     if (first <= last && last >= 0 && first < f->next)
         return wf_fail(err, WEFT_USAGE,
                        "samples from %g field periods after field %" PRId64
                        " come late: field %" PRId64 " is finished",
-                       low, s->field, first);
+                       low, block->field, first);
     for (int64_t n = first; n <= last && n < f->end; n++) {
         weft_status status = begin_field(f, n, err);
         if (status) return status;
-        wf_gather_add(f->gather[n], &block);
+        wf_gather_add(f->gather[n], block);
     }
     return WEFT_OK;
+}
+
+/* Where alpha is not written, what samples do not hide shows the background. rgb is
+ * [3][count]. */
+static void lay_over_background(const weft_job *job, wf_samples *block, float *rgb) {
+    for (size_t c = 0; c < 3; c++) {
+        float *to = rgb + c * block->count;
+        for (size_t i = 0; i < block->count; i++)
+            to[i] = block->rgb[c][i] + (1 - block->alpha[i]) * job->background[c];
+        block->rgb[c] = to;
+    }
+}
+
+static bool shows_background(const weft_job *job) {
+    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
+}
+
+weft_status weft_fields_push(weft_fields *f, const weft_samples *s, weft_error *err) {
+    wf_samples block = {.count = s->count,
+                        .x = s->x,
+                        .y = s->y,
+                        .t = s->t,
+                        .field = s->field,
+                        .rgb = {s->red, s->green, s->blue},
+                        .weight = s->weight,
+                        .alpha = s->alpha};
+    if (!s->count) return WEFT_OK;
+    if (!all_finite(s)) return wf_fail(err, WEFT_USAGE, "a sample is not finite");
+    if (!s->alpha || !shows_background(f->job)) return gather(f, &block, err);
+    float *rgb = s->count > SIZE_MAX / 16 ? NULL : malloc(3 * s->count * sizeof *rgb);
+    if (!rgb) return wf_fail(err, WEFT_NO_MEMORY, "no memory for samples");
+    lay_over_background(f->job, &block, rgb);
+    weft_status status = gather(f, &block, err);
+    free(rgb);
+    return status;
 }
 
 /* A row of a tile at a time. */
@@ -163,11 +196,12 @@ weft_status weft_fields_push_tile(weft_fields *f, const weft_tile *tile, weft_er
             v[2 * width + i] = (float)tile->t;
             for (size_t c = 0; c < 3; c++) v[(3 + c) * width + i] = row[3 * i + c];
         }
-        const weft_samples samples = {width,         v,
-                                      v + width,     v + 2 * width,
-                                      tile->field,   v + 3 * width,
-                                      v + 4 * width, v + 5 * width,
-                                      NULL};
+        const weft_samples samples = {
+            width,         v,
+            v + width,     v + 2 * width,
+            tile->field,   v + 3 * width,
+            v + 4 * width, v + 5 * width,
+            NULL,          tile->alpha ? tile->alpha + width * (size_t)j : NULL};
         status = weft_fields_push(f, &samples, err);
     }
     free(v);
@@ -186,6 +220,8 @@ static void keep_line(const weft_fields *f, int64_t field, int line) {
     wf_frames_place(f->frames, f->crew.workers, field, line, rgb);
     for (int c = 0; c < 3; c++)
         memcpy(rgb[c], f->line + c * width, (size_t)width * sizeof(float));
+    float *alpha = wf_frames_alpha(f->frames, f->crew.workers, field, line);
+    if (alpha) memcpy(alpha, f->alpha + line * width, (size_t)width * sizeof *alpha);
     wf_frames_line(f->frames, f->crew.workers, field, line);
 }
 
@@ -194,8 +230,13 @@ static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) 
     float *const rgb[3] = {f->line, f->line + width, f->line + 2 * width};
     weft_status status = WEFT_OK;
     for (int l = 0; !status && l < lines_of(f, field); l++) {
-        const wf_gathered_line line = {f->job, f->gather[field],         field, l,
-                                       l,      "set on-empty to nearest"};
+        const wf_gathered_line line = {.job = f->job,
+                                       .gather = f->gather[field],
+                                       .field = field,
+                                       .line = l,
+                                       .called = l,
+                                       .remedy = "set on-empty to nearest",
+                                       .alpha = f->alpha ? f->alpha + (size_t)l * width : NULL};
         status = wf_gathered_finish(&line, rgb, &f->filled, err);
         if (!status) keep_line(f, field, l);
     }
@@ -209,8 +250,13 @@ static weft_status finish_field(weft_fields *f, weft_error *err) {
     weft_status status = begin_field(f, n, err);
     if (!status) status = finish_lines(f, n, err);
     if (status) return status;
-    const weft_field field = {
-        n, wf_raster_parity(r, n), wf_raster_line_step(r), lines_of(f, n), r->width_px, f->rgb};
+    const weft_field field = {n,
+                              wf_raster_parity(r, n),
+                              wf_raster_line_step(r),
+                              lines_of(f, n),
+                              r->width_px,
+                              f->rgb,
+                              f->alpha};
     if (f->fn) f->fn(&field, f->user);
     wf_gather_free(f->gather[n]);
     f->gather[n] = NULL;

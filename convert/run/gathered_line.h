@@ -12,11 +12,12 @@ typedef struct wf_gathered_line {
     int line;           /* of the field */
     int called;         /* the number that an error calls it by */
     const char *remedy; /* what an error tells to set */
+    float *alpha;       /* [width_px], to be filled; NULL: it is not gathered */
 } wf_gathered_line;
 
-/* Puts it into rgb as R, G, B of width_px scene-linear samples. A pixel that no sample reached
- * is an error or, with --on-empty nearest, what is nearest to it, and *filled counts it. Any
- * thread. */
+/* Puts it into rgb as R, G, B of width_px scene-linear samples, and its alpha. A pixel that no
+ * sample reached is an error or, with --on-empty nearest, what is nearest to it, and *filled
+ * counts it. Any thread. */
 weft_status wf_gathered_finish(const wf_gathered_line *line, float *const rgb[3],
                                int64_t *filled, weft_error *err);
 

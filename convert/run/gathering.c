@@ -150,11 +150,12 @@ static wf_gathered_line line_of(const wf_run *run, const wf_gathering *g, int li
 static void finish_line(void *user, wf_worker *worker, int line) {
     wf_run *run = user;
     wf_gathering *g = run->sums;
-    const wf_gathered_line gathered = line_of(run, g, line);
+    wf_gathered_line gathered = line_of(run, g, line);
     int64_t filled = 0;
     float *rgb[3];
     double start = wf_now_s();
     wf_frames_place(run->frames, worker, g->flight_first, line, rgb);
+    gathered.alpha = wf_frames_alpha(run->frames, worker, g->flight_first, line);
     weft_status status = wf_gathered_finish(&gathered, rgb, &filled, &worker->error);
     worker->resample_s += wf_now_s() - start;
     g->filled += filled;

@@ -128,7 +128,7 @@ static weft_status turn(wf_run *run, int64_t unit, weft_error *err) {
     return wf_deep_open(ref->path, &run->job->raster, &s->file, err);
 }
 
-/* What is not covered shows the background. */
+/* What is not covered shows the background; where alpha is written there is none. */
 static void lay_over_background(const weft_job *job, const wf_deep_line *line, size_t count) {
     float *const rgb[3] = {line->channel[WF_DEEP_R], line->channel[WF_DEEP_G],
                            line->channel[WF_DEEP_B]};
@@ -149,7 +149,8 @@ static void hand_over(const wf_run *run, const wf_deep_line *l, const wf_receive
         .t = l->channel[WF_DEEP_T],
         .field = s->unit * wf_raster_fields_per_frame(raster),
         .rgb = {l->channel[WF_DEEP_R], l->channel[WF_DEEP_G], l->channel[WF_DEEP_B]},
-        .weight = l->channel[WF_DEEP_WEIGHT]};
+        .weight = l->channel[WF_DEEP_WEIGHT],
+        .alpha = l->channel[WF_DEEP_A]};
     if (count) receiver->samples(receiver->user, &block);
 }
 

@@ -90,8 +90,8 @@ static weft_status find_input(wf_run *run, weft_error *err) {
     s->options = (wf_source_options){
         .layer = job->layer,
         .part = job->part,
-        .want_alpha =
-            (shows_background(job) || wf_job_writes_alpha(job)) && job->alpha != WF_ALPHA_IGNORED,
+        .want_alpha = (shows_background(job) || wf_job_writes_alpha(job)) &&
+                      job->alpha != WF_ALPHA_IGNORED,
         .alpha = job->alpha,
         .to_light = !job->from,
         .nan_fix = job->nan_fix,

@@ -54,7 +54,8 @@ void wf_gather_lines(const wf_gather_desc *d, int64_t field, double y0, double y
 /* ---- Life ---- */
 
 size_t wf_gather_bytes(const wf_gather_desc *d, int lines) {
-    return (size_t)lines * (size_t)d->raster->width_px * sizeof(wf_pixel_sum);
+    size_t pixel = sizeof(wf_pixel_sum) + (d->alpha ? sizeof(double) : 0);
+    return (size_t)lines * (size_t)d->raster->width_px * pixel;
 }
 
 wf_patch wf_gather_patch(const wf_gather_desc *d, int64_t field, const double x[2],
@@ -84,14 +85,16 @@ wf_gather *wf_gather_new_patch(const wf_gather_desc *d, int64_t field, wf_patch 
     g->skew_a_line = skew_of(d) / d->raster->lines;
     size_t pixels = (size_t)(patch.end - patch.first) * (size_t)(patch.right - patch.left);
     g->sum = calloc(pixels + 1, sizeof *g->sum);
-    if (g->sum) return g;
-    free(g);
+    if (d->alpha) g->alpha = calloc(pixels + 1, sizeof *g->alpha);
+    if (g->sum && (g->alpha || !d->alpha)) return g;
+    wf_gather_free(g);
     return NULL;
 }
 
 void wf_gather_free(wf_gather *g) {
     if (!g) return;
     free(g->sum);
+    free(g->alpha);
     free(g);
 }
 
@@ -127,20 +130,22 @@ static cell_heights heights_of(const wf_aperture *a) {
     return h;
 }
 
-static void add_cell(wf_gather *g, const cell_heights *h, int x, int y, const double rgb[3]) {
+static void add_cell(wf_gather *g, const cell_heights *h, int x, int y, const double rgba[4]) {
     for (int k = 0; k < h->down; k++) {
         int j = y - (int)(h->first_v + k + 0.5), line = (j - g->parity) / g->line_step;
         if (j < g->parity || (j - g->parity) % g->line_step || line < g->held.first ||
             line >= g->held.end)
             continue;
         wf_pixel_sum *sum = wf_gather_sums(g, line);
+        double *alpha = wf_gather_alphas(g, line);
         for (int n = 0; n < h->across; n++) {
             int i = x - (int)(h->first_u + n + 0.5);
             if (h->of[k][n] == 0 || i < g->held.left || i >= g->held.right) continue;
-            sum[i].r += h->of[k][n] * rgb[0];
-            sum[i].g += h->of[k][n] * rgb[1];
-            sum[i].b += h->of[k][n] * rgb[2];
+            sum[i].r += h->of[k][n] * rgba[0];
+            sum[i].g += h->of[k][n] * rgba[1];
+            sum[i].b += h->of[k][n] * rgba[2];
             sum[i].weight += h->of[k][n];
+            if (alpha) alpha[i] += h->of[k][n] * rgba[3];
         }
     }
 }
@@ -148,9 +153,10 @@ static void add_cell(wf_gather *g, const cell_heights *h, int x, int y, const do
 static void add_cells(wf_gather *g, const wf_sample_cells *cells) {
     const cell_heights heights = heights_of(&g->desc.aperture);
     for (size_t n = 0; n < cells->count; n++) {
-        const double rgb[3] = {(double)cells->rgb[0][n], (double)cells->rgb[1][n],
-                               (double)cells->rgb[2][n]};
-        add_cell(g, &heights, cells->x[n], cells->y[n], rgb);
+        const double rgba[4] = {(double)cells->rgb[0][n], (double)cells->rgb[1][n],
+                                (double)cells->rgb[2][n],
+                                cells->alpha ? (double)cells->alpha[n] : 1};
+        add_cell(g, &heights, cells->x[n], cells->y[n], rgba);
     }
 }
 
@@ -165,11 +171,13 @@ void wf_gather_fill(wf_gather *g, const wf_sample_tile *tile, const float rgb[3]
         int row = g->parity + line * g->line_step;
         if (row < tile->first || row >= tile->end) continue;
         wf_pixel_sum *sum = wf_gather_sums(g, line);
+        double *alpha = wf_gather_alphas(g, line);
         for (int i = tile->left; i < tile->right; i++) {
             sum[i].r += (double)rgb[0];
             sum[i].g += (double)rgb[1];
             sum[i].b += (double)rgb[2];
             sum[i].weight += 1;
+            if (alpha) alpha[i] += 1;
         }
     }
 }
@@ -186,11 +194,14 @@ void wf_gather_merge(wf_gather *g, const wf_gather *from) {
     for (int line = both.first; line < both.end; line++) {
         wf_pixel_sum *to = wf_gather_sums(g, line);
         const wf_pixel_sum *add = wf_gather_sums(from, line);
+        double *alpha = wf_gather_alphas(g, line);
+        const double *more = wf_gather_alphas(from, line);
         for (int i = both.left; i < both.right; i++) {
             to[i].r += add[i].r;
             to[i].g += add[i].g;
             to[i].b += add[i].b;
             to[i].weight += add[i].weight;
+            if (alpha && more) alpha[i] += more[i];
         }
     }
 }
@@ -211,6 +222,13 @@ int wf_gather_line(const wf_gather *g, int line, float *const rgb[3]) {
     return empty;
 }
 
+void wf_gather_alpha(const wf_gather *g, int line, float *alpha) {
+    const wf_pixel_sum *sum = wf_gather_sums(g, line);
+    const double *sums = wf_gather_alphas(g, line);
+    for (int i = 0; i < g->desc.raster->width_px; i++)
+        alpha[i] = sum[i].weight != 0 ? (float)(sums[i] / sum[i].weight) : 0;
+}
+
 bool wf_gather_reached(const wf_gather *g, int line, int pixel) {
     return wf_gather_sums(g, line)[pixel].weight != 0;
 }
@@ -226,7 +244,7 @@ static int nearest_in_line(const wf_gather *g, int line, int pixel) {
     return -1;
 }
 
-bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
+bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgba[4]) {
     const wf_pixel_sum *best = NULL;
     double best_distance = HUGE_VAL;
     for (int l = g->held.first; l < g->held.end; l++) {
@@ -239,8 +257,10 @@ bool wf_gather_nearest(const wf_gather *g, int line, int pixel, float rgb[3]) {
         best = &wf_gather_sums(g, l)[found];
     }
     if (!best) return false;
-    rgb[0] = (float)(best->r / best->weight);
-    rgb[1] = (float)(best->g / best->weight);
-    rgb[2] = (float)(best->b / best->weight);
+    double alpha = g->alpha ? g->alpha[best - g->sum] : best->weight;
+    rgba[0] = (float)(best->r / best->weight);
+    rgba[1] = (float)(best->g / best->weight);
+    rgba[2] = (float)(best->b / best->weight);
+    rgba[3] = (float)(alpha / best->weight);
     return true;
 }

@@ -17,6 +17,7 @@ typedef struct wf_gather_desc {
     wf_rational width; /* tau, field periods; 0: samples within 2^-12 of the instant count */
     wf_position position;
     wf_rational skew; /* 0..1; {0, 0}: 0 */
+    bool alpha;       /* is gathered beside color, with the same weights */
 } wf_gather_desc;
 
 /* Cells of the raster, each one pixel of one frame line, and the mean color of each over the
@@ -26,6 +27,7 @@ typedef struct wf_sample_cells {
     size_t count;
     const int *x, *y;    /* [count] */
     const float *rgb[3]; /* [count] each */
+    const float *alpha;  /* [count]; NULL: 1 each */
 } wf_sample_cells;
 
 /* A block of samples, one array for each property, borrowed. */
@@ -36,11 +38,12 @@ typedef struct wf_samples {
     int64_t field;
     const float *rgb[3]; /* scene-linear, over the background */
     const float *weight; /* NULL: 1 each */
-    /* NULL, or the cells in which all of these samples lie: then rgb is what each sample differs
-     * from its cell's mean, weights add up to 1 in each cell, and a pixel is
-     * sum(H C + sum(h w c)) / sum(H), H the mean of h over the cell, C the cell's color. For
-     * apertures that do not couple v and q, and samples that lie evenly in the window of their
-     * field and of those at the same instant. */
+    const float *alpha;  /* by which rgb is multiplied; NULL: 1 each */
+    /* NULL, or the cells in which all of these samples lie: then rgb (and alpha, which is 0
+     * where it is NULL) is what each sample differs from its cell's mean, weights add up to 1
+     * in each cell, and a pixel is sum(H C + sum(h w c)) / sum(H), H the mean of h over the
+     * cell, C the cell's color. For apertures that do not couple v and q, and samples that lie
+     * evenly in the window of their field and of those at the same instant. */
     const wf_sample_cells *cells;
 } wf_samples;
 
@@ -111,6 +114,9 @@ void wf_gather_fill(wf_gather *gather, const wf_sample_tile *tile, const float r
  * it: of the same parity. */
 void wf_gather_merge(wf_gather *gather, const wf_gather *from);
 
+/* Alpha of line l, of a gather that has it: width_px samples, 0 where no sample reached. */
+void wf_gather_alpha(const wf_gather *gather, int line, float *alpha);
+
 /* Line l as R, G, B of width_px samples. Returns -1, or the first pixel that no sample reached
  * (or whose weights cancel); such pixels are 0 there. */
 int wf_gather_line(const wf_gather *gather, int line, float *const rgb[3]);
@@ -119,7 +125,8 @@ int wf_gather_line(const wf_gather *gather, int line, float *const rgb[3]);
 bool wf_gather_reached(const wf_gather *gather, int line, int pixel);
 
 /* What pixel of line l takes from the nearest pixel of the gather that samples reached, by
- * distance on the raster. False where no sample reached any. */
-bool wf_gather_nearest(const wf_gather *gather, int line, int pixel, float rgb[3]);
+ * distance on the raster: R, G, B and alpha, which is 1 where it is not gathered. False where
+ * no sample reached any. */
+bool wf_gather_nearest(const wf_gather *gather, int line, int pixel, float rgba[4]);
 
 #endif

@@ -16,6 +16,7 @@
 typedef struct run {
     int count, padded;
     _Alignas(64) double x[RUN], y[RUN], t[RUN], light[4][RUN]; /* weight * (r, g, b, 1) */
+    _Alignas(64) double alpha[RUN]; /* weight * alpha, if it is gathered */
     _Alignas(64) double v[RUN], q[RUN], height[RUN], half_u[RUN];
 } run;
 
@@ -31,6 +32,15 @@ static int same_cell(const wf_samples *s, size_t first) {
     if (!outside) return most;
     while (n < most && in_cell(x + n, y + n, i, j)) n++;
     return n;
+}
+
+/* Differences of samples that say nothing of alpha are none. */
+static void load_alpha(const wf_samples *s, size_t first, run *r) {
+    for (int i = 0; i < r->padded; i++) {
+        size_t at = first + (size_t)(i < r->count ? i : 0);
+        double w = i >= r->count ? 0 : s->weight ? (double)s->weight[at] : 1;
+        r->alpha[i] = w * (s->alpha ? (double)s->alpha[at] : s->cells ? 0 : 1);
+    }
 }
 
 static void load(const wf_samples *s, size_t first, double apart, run *r) {
@@ -68,8 +78,10 @@ static inline lanes where(lane_mask mask, lanes v) {
     return (lanes)((lane_mask)v & mask);
 }
 
-static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
-    lanes red = {0}, green = {0}, blue = {0}, weight = {0};
+/* Inlined with alpha NULL and not, so that color alone is as fast as it can be. */
+static inline __attribute__((always_inline)) void add_lanes(const run *r, int pixel,
+                                                            wf_pixel_sum *sum, double *alpha) {
+    lanes red = {0}, green = {0}, blue = {0}, weight = {0}, opaque = {0};
     double left = pixel + 0.5;
     for (int i = 0; i < r->padded; i += LANES) {
         lanes u = *(const lanes *)&r->x[i] - left, half = *(const lanes *)&r->half_u[i];
@@ -78,11 +90,21 @@ static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
         green += h * *(const lanes *)&r->light[1][i];
         blue += h * *(const lanes *)&r->light[2][i];
         weight += h * *(const lanes *)&r->light[3][i];
+        if (alpha) opaque += h * *(const lanes *)&r->alpha[i];
     }
     sum->r += total(red);
     sum->g += total(green);
     sum->b += total(blue);
     sum->weight += total(weight);
+    if (alpha) *alpha += total(opaque);
+}
+
+static void add_to_pixel(const run *r, int pixel, wf_pixel_sum *sum) {
+    add_lanes(r, pixel, sum, NULL);
+}
+
+static void add_with_alpha(const run *r, int pixel, wf_pixel_sum *sum, double *alpha) {
+    add_lanes(r, pixel, sum, alpha);
 }
 
 /* At an instant the aperture has only u and v; the diamond's is then the tent that it tends to.
@@ -141,7 +163,9 @@ static void add_to_line(wf_gather *g, run *r, int line, double low, double high)
     int from = first > g->held.left ? (int)first : g->held.left;
     int to = last < g->held.right - 1 ? (int)last : g->held.right - 1;
     wf_pixel_sum *sums = wf_gather_sums(g, line);
-    for (int i = from; i <= to; i++) add_to_pixel(r, i, &sums[i]);
+    double *alphas = wf_gather_alphas(g, line);
+    for (int i = from; !alphas && i <= to; i++) add_to_pixel(r, i, &sums[i]);
+    for (int i = from; alphas && i <= to; i++) add_with_alpha(r, i, &sums[i], &alphas[i]);
 }
 
 static void add_run(wf_gather *g, run *r) {
@@ -162,6 +186,7 @@ static void add(wf_gather *g, const wf_samples *s, double apart) {
     for (size_t first = 0; first < s->count; first += (size_t)r.count) {
         r.count = same_cell(s, first);
         load(s, first, apart, &r);
+        if (g->alpha) load_alpha(s, first, &r);
         add_run(g, &r);
     }
 }

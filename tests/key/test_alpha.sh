@@ -89,6 +89,18 @@ raise SystemExit(any(abs(a - b) > .002 for a, b in zip(have, want)) and f"{have}
 END
 check "what hides everything stays" at k.tif 40 30 ".7492 .5612 .3831 1"
 
+# ---- Samples ----
+
+# Samples whose alpha is their red: what is written is equal, too.
+check "samples" exits 0 weft trace "$WEFT_SOURCE/examples/scenes/still.lua" --raster 48x36@25i --samples 4 --frames 0-1 -q -o traced.####.exr
+for n in 0 1; do oiiotool traced.000$n.exr --ch R,G,B,A=R,sample.t,sample.x,sample.y -o deep.000$n.exr; done
+check "with alpha" exits 0 weft convert deep.####.exr --raster 48x36@25i -q --alpha-out -o keyed.####.exr
+check "are gathered with it" eval "oiiotool keyed.0001.exr --ch R keyed.0001.exr --ch A --fail 0 --diff >diff.log"
+weft convert traced.####.exr --raster 48x36@25i -q -o color.####.exr
+check "beside color as it was" eval "oiiotool keyed.0001.exr --ch R,G,B color.0001.exr --fail 0 --diff >diff.log"
+weft convert traced.####.exr --raster 48x36@25i -q --alpha-out -o opaque.####.exr
+check "and where they have none are opaque" eval "oiiotool opaque.0001.exr --ch A --printstats | grep -q 'Stats Avg: 1.000000'"
+
 # ---- What is refused ----
 
 # refused TEXT OPTION..

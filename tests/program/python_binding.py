@@ -396,6 +396,30 @@ class Push(unittest.TestCase):
         np.testing.assert_allclose(first.rgb, self.boxed(pictures[0], 0), atol=2e-6)
         np.testing.assert_allclose(second.rgb, self.boxed(pictures[1], 1), atol=2e-6)
 
+    def test_alpha(self):
+        """Alpha is seen through what color is; without alpha_out color lies over the background."""
+        rng = np.random.default_rng(2)
+        alpha = rng.random(48 * 72)
+        light = rng.random((48 * 72, 3)) * alpha[:, None]
+        behind = np.array([0.5, 0.25, 2])
+        x, y = self.grid()
+        def made(**more):
+            with self.job(**more) as job, weft.Fields(job, 1) as fields:
+                fields.push(0, x, y, 0.1, light, alpha=alpha)
+                fields.push_tile(1, light.reshape(48, 72, 3), t=0.1, alpha=alpha.reshape(48, 72))
+                return fields.finish()
+        plain, keyed, over = made(), made(alpha_out=True), made(background="0.5,0.25,2")
+        repeated = np.repeat(alpha, 3).reshape(48, 72, 3)
+        for n in range(2):
+            self.assertIsNone(plain[n].alpha)
+            self.assertEqual((keyed[n].alpha.shape, keyed[n].alpha.dtype), ((12, 36), np.float32))
+            np.testing.assert_array_equal(keyed[n].rgb, plain[n].rgb)
+            np.testing.assert_allclose(keyed[n].alpha, self.boxed(repeated, n)[:, :, 0], atol=2e-6)
+            np.testing.assert_allclose(over[n].rgb, keyed[n].rgb + (1 - keyed[n].alpha[:, :, None]) * behind, atol=1e-6)
+        with self.job() as job, weft.Fields(job, 1) as fields:
+            with self.assertRaisesRegex(ValueError, "alpha must have the shape"):
+                fields.push(0, x, y, 0.1, light, alpha=alpha[1:])
+
     def test_weight(self):
         x, y = self.grid()
         rgb = np.zeros((len(x), 3))

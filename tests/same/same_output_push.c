@@ -49,7 +49,7 @@ static weft_status push_line(weft_fields *fields, int64_t field, int j, weft_err
         v[6][k] = k % 2 ? 1 : 0.25f + drawn();
     }
     const weft_samples samples = {
-        COUNT, v[0], v[1], v[2], field, v[3], v[4], v[5], j % 2 ? v[6] : NULL};
+        COUNT, v[0], v[1], v[2], field, v[3], v[4], v[5], j % 2 ? v[6] : NULL, NULL};
     return weft_fields_push(fields, &samples, err);
 }
 
@@ -59,7 +59,7 @@ static weft_status push_tile(weft_fields *fields, int64_t field, weft_error *err
     for (int y = 0; y < 40; y++)
         for (int x = 0; x < 60; x++)
             for (int c = 0; c < 3; c++) rgb[y][x][c] = 0.01f * (float)((x * (c + 1) + y) % 50);
-    const weft_tile tile = {2.5, 1.25, 30, 20.75, 0.25, field, 60, 40, &rgb[0][0][0]};
+    const weft_tile tile = {2.5, 1.25, 30, 20.75, 0.25, field, 60, 40, &rgb[0][0][0], NULL};
     return weft_fields_push_tile(fields, &tile, err);
 }
 

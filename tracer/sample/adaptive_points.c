@@ -233,7 +233,7 @@ static void list_cells(const wf_adaptive *a, const wf_adaptive_samples *k, cell_
         c->y[count] = wf_cell_y(a, at);
         c->index[at] = (int)count++;
     }
-    c->cells = (wf_sample_cells){count, c->x, c->y, {c->rgb[0], c->rgb[1], c->rgb[2]}};
+    c->cells = (wf_sample_cells){count, c->x, c->y, {c->rgb[0], c->rgb[1], c->rgb[2]}, NULL};
 }
 
 /* Leaves of the samples what they differ from the means of their cells. */

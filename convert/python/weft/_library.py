@@ -26,18 +26,19 @@ class ProgressStruct(ctypes.Structure):
 
 class Samples(ctypes.Structure):
     _fields_ = [("count", c_size_t), ("x", FLOATS), ("y", FLOATS), ("t", FLOATS), ("field", c_int64),
-                ("red", FLOATS), ("green", FLOATS), ("blue", FLOATS), ("weight", FLOATS)]
+                ("red", FLOATS), ("green", FLOATS), ("blue", FLOATS), ("weight", FLOATS),
+                ("alpha", FLOATS)]
 
 
 class Tile(ctypes.Structure):
     _fields_ = [("x0", c_double), ("y0", c_double), ("x1", c_double), ("y1", c_double),
                 ("t", c_double), ("field", c_int64), ("width", c_int), ("height", c_int),
-                ("rgb", FLOATS)]
+                ("rgb", FLOATS), ("alpha", FLOATS)]
 
 
 class FieldStruct(ctypes.Structure):
     _fields_ = [("index", c_int64), ("first_line", c_int), ("line_step", c_int), ("lines", c_int),
-                ("width_px", c_int), ("rgb", FLOATS)]
+                ("width_px", c_int), ("rgb", FLOATS), ("alpha", FLOATS)]
 
 
 class OptionStruct(ctypes.Structure):

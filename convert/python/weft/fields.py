@@ -22,6 +22,7 @@ class Field:
     first_line: int  #: its line l is line first_line + l * line_step of the frame
     line_step: int
     rgb: np.ndarray  #: (lines, width, 3) float32, scene-linear; a copy of its own
+    alpha: Optional[np.ndarray] = None  #: (lines, width) float32; None unless the job writes alpha
 
 
 def _floats(name: str, value: Any, shape: tuple) -> np.ndarray:
@@ -37,8 +38,16 @@ def _floats(name: str, value: Any, shape: tuple) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float32)
 
 
-def _pointer(array: np.ndarray):
-    return array.ctypes.data_as(FLOATS)
+def _pointer(array: Optional[np.ndarray]):
+    return FLOATS() if array is None else array.ctypes.data_as(FLOATS)
+
+
+def _field(f: Any) -> Field:
+    # libweft's memory is lent for the call only.
+    shape = (f.lines, f.width_px)
+    rgb = np.ctypeslib.as_array(f.rgb, (*shape, 3)).copy()
+    alpha = np.ctypeslib.as_array(f.alpha, shape).copy() if f.alpha else None
+    return Field(f.index, f.first_line, f.line_step, rgb, alpha)
 
 
 class Fields:
@@ -67,11 +76,7 @@ class Fields:
         calls, take = self._calls, on_field or self._finished.append
 
         def tell(pointer, _user):
-            f = pointer.contents
-            shape = (f.lines, f.width_px, 3)
-            # libweft's memory is lent for the call only.
-            calls.guard(lambda: take(Field(f.index, f.first_line, f.line_step,
-                                           np.ctypeslib.as_array(f.rgb, shape).copy())))
+            calls.guard(lambda: take(_field(pointer.contents)))
 
         self._function = FIELD_FN(tell)
         call(lib.weft_fields_new, job._idle(), int(frames), self._function, None,
@@ -86,12 +91,15 @@ class Fields:
             raise UsageError("these fields are closed")
         return self._handle
 
-    def push(self, field: int, x: Any, y: Any, t: Any, rgb: Any, weight: Any = None) -> None:
+    def push(self, field: int, x: Any, y: Any, t: Any, rgb: Any, weight: Any = None,
+             alpha: Any = None) -> None:
         """Adds n samples, in any order.
 
         x, y (n,): raster coordinates, pixels and frame lines from the upper left corner.
         t (n,), or one number for all: field periods after the instant of `field`, from 0.
         rgb (n, 3): scene-linear. weight (n,): None lets all count alike.
+        alpha (n,): rgb is multiplied by it already; None: 1. What it leaves open shows the job's
+        background, or stays open where alpha_out or key is set.
         Arrays of other real types are converted to float32. UsageError if a sample belongs to a
         field that is finished, or is not finite.
         """
@@ -101,13 +109,16 @@ class Fields:
         t = _floats("t", np.broadcast_to(t, (n,)) if np.ndim(t) == 0 else t, (n,))
         planes = np.ascontiguousarray(_floats("rgb", rgb, (n, 3)).T)
         weights = None if weight is None else _floats("weight", weight, (n,))
+        opaque = None if alpha is None else _floats("alpha", alpha, (n,))
         samples = Samples(n, _pointer(x), _pointer(y), _pointer(t), int(field),
                           *(_pointer(plane) for plane in planes),
-                          FLOATS() if weights is None else _pointer(weights))
+                          _pointer(weights), _pointer(opaque))
         call(lib.weft_fields_push, self._open(), ctypes.byref(samples))
 
-    def push_tile(self, field: int, rgb: Any, rect: Optional[tuple] = None, t: float = 0.0) -> None:
-        """Adds a grid of samples at one instant: rgb (height, width, 3), scene-linear.
+    def push_tile(self, field: int, rgb: Any, rect: Optional[tuple] = None, t: float = 0.0,
+                  alpha: Any = None) -> None:
+        """Adds a grid of samples at one instant: rgb (height, width, 3), scene-linear, and alpha
+        (height, width) as `push` takes it.
 
         They fill rect = (x0, y0, x1, y1), raster coordinates (None: the whole raster), each in the
         middle of its cell, t field periods after the instant of `field`.
@@ -116,10 +127,12 @@ class Fields:
         height, width, _ = rgb.shape
         if not height or not width:
             raise ValueError(f"rgb must hold samples; its shape is {rgb.shape}")
+        opaque = None if alpha is None else _floats("alpha", alpha, (height, width))
         if rect is None:
             rect = (0, 0, self._job.raster.width_px, self._job.raster.lines)
         x0, y0, x1, y1 = (float(edge) for edge in rect)
-        tile = Tile(x0, y0, x1, y1, float(t), int(field), width, height, _pointer(rgb))
+        tile = Tile(x0, y0, x1, y1, float(t), int(field), width, height, _pointer(rgb),
+                    _pointer(opaque))
         call(lib.weft_fields_push_tile, self._open(), ctypes.byref(tile))
 
     def _take(self) -> list[Field]:

@@ -276,7 +276,7 @@ static void empty_pixels(void **state) {
     float x[2] = {1.5f, 6.5f}, y[2] = {0.5f, 2.5f}, t[2] = {0.5f, 0.5f}, red[2] = {1, 2};
     wf_samples samples = {.count = 2, .x = x, .y = y, .t = t, .rgb = {red, red, red}};
     wf_gather *g = wf_gather_new(&d, 0, 0, 2);
-    float line[3][8], *rgb[3] = {line[0], line[1], line[2]}, nearest[3];
+    float line[3][8], *rgb[3] = {line[0], line[1], line[2]}, nearest[4];
     assert_false(wf_gather_nearest(g, 0, 3, nearest));
     wf_gather_add(g, &samples);
     assert_int_equal(wf_gather_line(g, 0, rgb), 0);
@@ -320,7 +320,7 @@ static void add_cells(wf_gather *g, int64_t field) {
         y[cell] = cell / 8;
         c[cell] = color_of(x[cell], y[cell]);
     }
-    const wf_sample_cells cells = {8 * 16, x, y, {c, c, c}};
+    const wf_sample_cells cells = {8 * 16, x, y, {c, c, c}, NULL};
     const wf_samples samples = {.field = field, .cells = &cells};
     wf_gather_add(g, &samples);
 }
@@ -374,11 +374,102 @@ static void differences_weigh_nothing(void **state) {
     wf_gather_free(g);
 }
 
+/* ---- Alpha ---- */
+
+#define B 0.375f /* what lies behind */
+
+/* Alpha of a channel's samples is that channel to the bit, through merging too, and color
+ * beside it is what it is without. */
+static void alpha_is_gathered_as_color(void **state) {
+    (void)state;
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a++) {
+        scenario s = {.raster = "24x16@30i,bff",
+                      .name = apertures[a].name,
+                      .field = 3,
+                      .aperture = apertures[a].aperture,
+                      .width = {1, 1},
+                      .weighted = a % 2};
+        wf_raster raster;
+        wf_gather_desc d = describe(&s, &raster);
+        cloud *c = make_cloud(&raster, -3, 3, s.weighted);
+        float plain[3][32], line[3][32], alpha[32];
+        wf_gather *without = wf_gather_new(&d, 3, 0, 8);
+        d.alpha = true;
+        wf_gather *g = wf_gather_new(&d, 3, 0, 8), *all = wf_gather_new(&d, 3, 0, 8);
+        assert_true(without && g && all);
+        wf_gather_add(without, &c->samples);
+        c->samples.alpha = c->rgb[1];
+        wf_gather_add(g, &c->samples);
+        wf_gather_merge(all, g);
+        for (int l = 0; l < 8; l++) {
+            wf_gather_line(without, l, (float *[3]){plain[0], plain[1], plain[2]});
+            wf_gather_line(all, l, (float *[3]){line[0], line[1], line[2]});
+            wf_gather_alpha(all, l, alpha);
+            for (int i = 0; i < 24; i++) {
+                assert_memory_equal(&alpha[i], &line[1][i], sizeof *alpha);
+                for (int k = 0; k < 3; k++) assert_true(line[k][i] == plain[k][i]);
+            }
+        }
+        wf_gather_free(without);
+        wf_gather_free(g);
+        wf_gather_free(all);
+        free(c);
+    }
+}
+
+/* filter(A over B) = filter(A) + (1 - alpha) B; samples without alpha are opaque, and so is
+ * what fills pixels. */
+static void what_is_over_lies_over(void **state) {
+    (void)state;
+    scenario s = {.raster = "24x16@30i,bff", .aperture = "shaped", .width = {1, 1}};
+    wf_raster raster;
+    wf_gather_desc d = describe(&s, &raster);
+    cloud *c = make_cloud(&raster, -3, 3, true);
+    uint32_t seed = 9;
+    static float light[COUNT], over[COUNT], alpha[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        alpha[i] = i % 5 ? uniform(&seed, 0, 1) : (float)(i % 2);
+        light[i] = alpha[i] * uniform(&seed, 0, 1);
+        over[i] = light[i] + (1 - alpha[i]) * B;
+    }
+    c->samples.rgb[0] = light;
+    c->samples.rgb[1] = over;
+    c->samples.alpha = alpha;
+    d.alpha = true;
+    wf_gather *g = wf_gather_new(&d, 3, 0, 8);
+    float line[3][24], key[24], white[3] = {1, 1, 1}, nearest[4];
+    wf_gather_add(g, &c->samples);
+    for (int l = 0; l < 8; l++) {
+        wf_gather_line(g, l, (float *[3]){line[0], line[1], line[2]});
+        wf_gather_alpha(g, l, key);
+        for (int i = 0; i < 24; i++)
+            if (wf_gather_reached(g, l, i))
+                assert_true(fabsf(line[1][i] - (line[0][i] + (1 - key[i]) * B)) < 1e-6f);
+    }
+    for (int i = 0; i < 24; i++)
+        if (wf_gather_reached(g, 7, i))
+            assert_true(wf_gather_nearest(g, 7, i, nearest) && nearest[3] == key[i]);
+    wf_gather_free(g);
+    g = wf_gather_new(&d, 3, 0, 8);
+    wf_gather_fill(g, &(wf_sample_tile){.right = 24, .end = 16}, white);
+    c->samples.alpha = NULL;
+    wf_gather_add(g, &c->samples);
+    wf_gather_alpha(g, 3, key);
+    for (int i = 0; i < 24; i++) assert_true(fabsf(key[i] - 1) < 1e-6f);
+    wf_gather_free(g);
+    free(c);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_are_weighed), cmocka_unit_test(differences_weigh_nothing),
-        cmocka_unit_test(the_sums),          cmocka_unit_test(bands_merge),
-        cmocka_unit_test(what_is_reached),   cmocka_unit_test(empty_pixels),
+        cmocka_unit_test(alpha_is_gathered_as_color),
+        cmocka_unit_test(what_is_over_lies_over),
+        cmocka_unit_test(cells_are_weighed),
+        cmocka_unit_test(differences_weigh_nothing),
+        cmocka_unit_test(the_sums),
+        cmocka_unit_test(bands_merge),
+        cmocka_unit_test(what_is_reached),
+        cmocka_unit_test(empty_pixels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,16 @@ static void draw(cloud *c, uint32_t seed) {
 }
 
 static weft_samples block_of(const cloud *c, size_t first, size_t count, int64_t field) {
-    return (weft_samples){count,           c->v[0] + first, c->v[1] + first,
-                          c->v[2] + first, field,           c->v[3] + first,
-                          c->v[4] + first, c->v[5] + first, NULL};
+    return (weft_samples){count,
+                          c->v[0] + first,
+                          c->v[1] + first,
+                          c->v[2] + first,
+                          field,
+                          c->v[3] + first,
+                          c->v[4] + first,
+                          c->v[5] + first,
+                          NULL,
+                          NULL};
 }
 
 typedef struct taken {
@@ -124,7 +131,7 @@ static void tiles(void **state) {
         assert_int_equal(weft_fields_new(job, 2, take, &t, &fields, &err), WEFT_OK);
         for (int n = 0; n < 6; n++)
             for (int k = 0; k < 8; k++) {
-                const weft_tile tile = {0, 0, WIDTH, LINES, k / 8.0, n, 64, 48, gray};
+                const weft_tile tile = {0, 0, WIDTH, LINES, k / 8.0, n, 64, 48, gray, NULL};
                 if (weft_fields_push_tile(fields, &tile, &err)) fail_msg("%s", err.text);
             }
         assert_int_equal(weft_fields_finish(fields, &err), WEFT_OK);
@@ -162,8 +169,73 @@ static void refusals(void **state) {
     weft_job_free(job);
 }
 
+/* ---- Alpha ---- */
+
+typedef struct keyed {
+    float rgb[3 * WIDTH * LINES], alpha[WIDTH * LINES];
+    bool has_alpha;
+} keyed;
+
+static void take_keyed(const weft_field *field, void *user) {
+    keyed *k = user;
+    size_t pixels = (size_t)(field->lines * field->width_px);
+    memcpy(k->rgb, field->rgb, 3 * pixels * sizeof(float));
+    k->has_alpha = field->alpha;
+    if (k->has_alpha) memcpy(k->alpha, field->alpha, pixels * sizeof(float));
+}
+
+/* The first of two fields of a cloud whose alpha is its red, and a tile of alpha .25 over half
+ * of it; color is premultiplied. */
+static void push_keyed(weft_job *job, keyed *out) {
+    static cloud c;
+    static float gray[3 * 8 * 6], quarter[8 * 6];
+    weft_error err = {""};
+    weft_fields *fields;
+    draw(&c, 7);
+    for (int k = 0; k < COUNT; k++)
+        for (int n = 4; n < 6; n++) c.v[n][k] *= c.v[3][k];
+    for (int k = 0; k < 8 * 6; k++) quarter[k] = gray[3 * k + 1] = 0.25f;
+    assert_int_equal(weft_fields_new(job, 1, take_keyed, out, &fields, &err), WEFT_OK);
+    weft_samples block = block_of(&c, 0, COUNT, 0);
+    block.alpha = c.v[3];
+    const weft_tile tile = {0, 0, 8, 6, 0.125, 0, 8, 6, gray, quarter};
+    if (weft_fields_push(fields, &block, &err)) fail_msg("%s", err.text);
+    if (weft_fields_push_tile(fields, &tile, &err)) fail_msg("%s", err.text);
+    if (weft_fields_until(fields, 1, &err)) fail_msg("%s", err.text);
+    weft_fields_free(fields);
+}
+
+/* filter(A over B) = filter(A) + (1 - alpha) B, whichever way. */
+static void alpha_goes_along(void **state) {
+    static keyed key, over;
+    static const float behind[3] = {0.5f, 0.25f, 2};
+    weft_error err;
+    (void)state;
+    weft_job *job = make_job("shaped");
+    push_keyed(job, &over);
+    assert_false(over.has_alpha);
+    assert_int_equal(weft_job_set(job, "background", "0.5,0.25,2", &err), WEFT_OK);
+    push_keyed(job, &over);
+    assert_int_equal(weft_job_set(job, "alpha-out", NULL, &err), WEFT_OK);
+    weft_fields *none = NULL;
+    assert_int_equal(weft_fields_new(job, 1, NULL, NULL, &none, &err), WEFT_USAGE);
+    assert_non_null(strstr(err.text, "--background"));
+    assert_int_equal(weft_job_set(job, "background", "0,0,0", &err), WEFT_OK);
+    push_keyed(job, &key);
+    assert_true(key.has_alpha);
+    for (int i = 0; i < WIDTH * LINES / 2; i++) {
+        assert_true(key.alpha[i] > 0 && key.alpha[i] < 1);
+        for (int c = 0; c < 3; c++) {
+            float want = key.rgb[3 * i + c] + (1 - key.alpha[i]) * behind[c];
+            assert_true(fabsf(over.rgb[3 * i + c] - want) < 1e-6f);
+        }
+    }
+    weft_job_free(job);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sums), cmocka_unit_test(tiles),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_goes_along),
+                                       cmocka_unit_test(sums), cmocka_unit_test(tiles),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -190,6 +190,7 @@ static wf_gather_desc drawn_desc(level_run *r, wf_raster *raster) {
     d.width = wf_ratio(level_draw(r) % 5, 2);
     d.position = (wf_position)(level_draw(r) % 3);
     d.skew = wf_ratio(level_draw(r) % 2, 2);
+    d.alpha = level_draw(r) % 2;
     return d;
 }
 
@@ -224,6 +225,7 @@ static void add_plainly(const wf_gather *g, const wf_samples *s, double apart) {
                 sum->g += h * (double)s->rgb[1][k];
                 sum->b += h * (double)s->rgb[2][k];
                 sum->weight += h;
+                if (g->alpha) wf_gather_alphas(g, line)[i] += h * (double)s->alpha[k];
             }
         }
 }
@@ -238,13 +240,16 @@ static void gather(level_run *r) {
     float *blue = level_floats(r, r->count), *weight = level_floats(r, r->count);
     if (wf_ratio_value(d.width) <= 0)
         for (size_t i = 0; i < r->count; i++) t[i] *= 0x1p-13f;
-    const wf_samples s = {r->count, x, y, t, 2, {red, green, blue}, weight, NULL};
+    float *alpha = level_floats(r, r->count);
+    const wf_samples s = {r->count, x, y, t, 2, {red, green, blue}, weight, alpha, NULL};
     if (r->plain)
         add_plainly(g, &s, 0);
     else
         wf_gather_ops_at(r->level)->add(g, &s, 0);
     for (int line = 0; line < 8; line++)
         level_keep_doubles(r, &wf_gather_sums(g, line)->r, (size_t)4 * 24);
+    for (int line = 0; d.alpha && line < 8; line++)
+        level_keep_doubles(r, wf_gather_alphas(g, line), 24);
     wf_gather_free(g);
 }
 
