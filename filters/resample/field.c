@@ -263,12 +263,34 @@ static size_t sample_bytes(const wf_band_input *input) {
     return input->half ? 2 : 4;
 }
 
+/* The columns of a row of samples that are added to sums. */
+static wf_span columns_added(const wf_resampler *rs, const wf_band_input *input) {
+    wf_span reached = rs->columns;
+    if (padded(rs)) reached = meet(reached, (wf_span){0, rs->x.cells});
+    return meet(reached, (wf_span){input->here.x0, input->here.x1});
+}
+
+/* Whether a row of samples is added to all of a sum, which then begins with it. */
+static bool fills_sum(const wf_resampler *rs, const wf_band_input *input) {
+    wf_span columns = columns_added(rs, input);
+    return !input->half && columns.first == rs->columns.first &&
+           columns.end == rs->columns.end && input->channels >= rs->desc.channels;
+}
+
+static void begin_sum(const wf_field *f, const wf_term *term, const wf_band_input *input,
+                      double weight, double *sum) {
+    const wf_resampler *rs = f->rs;
+    size_t count = wf_columns_of(rs);
+    size_t skipped = (size_t)(term->row - input->here.y0) * input->line_stride +
+                     (size_t)(rs->columns.first - input->here.x0);
+    for (int c = 0; c < rs->desc.channels; c++, sum += count)
+        rs->ops->begin_float(sum, (const float *)input->plane[c] + skipped, weight, count);
+}
+
 static void add_samples(const wf_field *f, const wf_term *term, const wf_band_input *input,
                         double weight, double *sum) {
     const wf_resampler *rs = f->rs;
-    wf_span reached = rs->columns;
-    if (padded(rs)) reached = meet(reached, (wf_span){0, rs->x.cells});
-    wf_span columns = meet(reached, (wf_span){input->here.x0, input->here.x1});
+    wf_span columns = columns_added(rs, input);
     size_t count = (size_t)(columns.end - columns.first);
     size_t skipped = (size_t)(term->row - input->here.y0) * input->line_stride +
                      (size_t)(columns.first - input->here.x0);
@@ -306,6 +328,12 @@ static void add_term(wf_field *f, const wf_term *term, const wf_band_input *inpu
     bool opaque = rs->desc.channels == 4 && input->channels < 4;
     count_weight(f, term, input, weight);
     if (!opaque && !has_samples(rs, term, input)) return;
+    bool *live = &s->live[(size_t)slot * s->slot_sums + (size_t)sum];
+    if (!*live && has_samples(rs, term, input) && fills_sum(rs, input)) {
+        begin_sum(f, term, input, weight, slot_sum(s, slot, sum));
+        *live = true;
+        return;
+    }
     double *to = begun_sum(rs, s, slot, sum);
     if (has_samples(rs, term, input)) add_samples(f, term, input, weight, to);
     if (opaque) add_where_samples_exist(rs, term, input, weight, to + 3 * wf_columns_of(rs));

@@ -33,6 +33,11 @@ static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
 static void filter_phases(const wf_resampler *rs, const double *weight, const double *row,
                           double *out) {
     double reach = rs->desc.aperture.reach_u;
+    if (rs->phases == 1 && rs->lanes == 1) {
+        int first = wf_axis_reach(&rs->x, reach, 0).first - rs->columns.first;
+        rs->ops->add_taps(out, row + first, weight, (size_t)rs->taps, (size_t)rs->x.pixels);
+        return;
+    }
     for (int r = 0; r < rs->phases; r++) {
         size_t count = (size_t)((rs->x.pixels - r + rs->phases - 1) / rs->phases);
         int first = wf_axis_reach(&rs->x, reach, r).first - rs->columns.first;

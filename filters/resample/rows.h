@@ -13,12 +13,17 @@ typedef struct wf_row_ops {
     /* sum[i] += weight * pixel[i] */
     void (*add_half)(double *sum, const uint16_t *pixel, double weight, size_t count);
     void (*add_float)(double *sum, const float *pixel, double weight, size_t count);
+    /* sum[i] = 0 + weight * pixel[i] */
+    void (*begin_float)(double *sum, const float *pixel, double weight, size_t count);
     /* sum[i] = a[i] + b[i]; b may be NULL: sum[i] = a[i] */
     void (*set_rows)(double *sum, const float *a, const float *b, size_t count);
     /* sum[i] += pixel[i] */
     void (*add_row)(double *sum, const float *pixel, size_t count);
     /* sum[i] += weight * row[i] */
     void (*add_tap)(double *sum, const double *row, double weight, size_t count);
+    /* sum[i] += weight[t] * row[i + t] for one t < taps after another, but for weights of 0 */
+    void (*add_taps)(double *sum, const double *row, const double *weight, size_t taps,
+                     size_t count);
     /* row[i] = 1 / row[i] */
     void (*invert)(double *row, size_t count);
     /* out[i] = a[i] b[i] */

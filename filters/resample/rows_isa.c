@@ -50,6 +50,11 @@ static void add_float(double *restrict sum, const float *restrict pixel, double 
     for (size_t i = 0; i < count; i++) sum[i] += weight * (double)pixel[i];
 }
 
+static void begin_float(double *restrict sum, const float *restrict pixel, double weight,
+                        size_t count) {
+    for (size_t i = 0; i < count; i++) sum[i] = 0 + weight * (double)pixel[i];
+}
+
 static void set_rows(double *restrict sum, const float *restrict a, const float *restrict b,
                      size_t count) {
     if (b)
@@ -65,6 +70,30 @@ static void add_row(double *restrict sum, const float *restrict pixel, size_t co
 static void add_tap(double *restrict sum, const double *restrict row, double weight,
                     size_t count) {
     for (size_t i = 0; i < count; i++) sum[i] += weight * row[i];
+}
+
+/* What stays in registers while all taps are added to it. */
+typedef double doubles __attribute__((vector_size(64), aligned(8), may_alias));
+enum { DOUBLES = 8, BESIDE = 4 };
+
+/* Vectors are passed between functions of this file only, which are inlined. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+static void add_taps(double *restrict sum, const double *restrict row, const double *weight,
+                     size_t taps, size_t count) {
+    size_t i = 0;
+    for (; i + BESIDE * DOUBLES <= count; i += BESIDE * DOUBLES) {
+        doubles *to = (doubles *)(sum + i), kept[BESIDE];
+        for (int b = 0; b < BESIDE; b++) kept[b] = to[b];
+        for (size_t t = 0; t < taps; t++) {
+            const doubles *from = (const doubles *)(row + i + t);
+            if (weight[t] == 0) continue;
+            for (int b = 0; b < BESIDE; b++) kept[b] += weight[t] * from[b];
+        }
+        for (int b = 0; b < BESIDE; b++) to[b] = kept[b];
+    }
+    for (size_t t = 0; t < taps; t++)
+        if (weight[t] != 0) add_tap(sum + i, row + i + t, weight[t], count - i);
 }
 
 static void invert(double *row, size_t count) {
@@ -94,9 +123,11 @@ static void split(float *restrict lane, const double *restrict row, size_t lanes
 const wf_row_ops WF_ISA_TABLE(wf_row_ops) = {
     .add_half = add_half,
     .add_float = add_float,
+    .begin_float = begin_float,
     .set_rows = set_rows,
     .add_row = add_row,
     .add_tap = add_tap,
+    .add_taps = add_taps,
     .invert = invert,
     .multiply = multiply,
     .split = split,

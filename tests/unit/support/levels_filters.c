@@ -37,6 +37,14 @@ static void add_float(level_run *r) {
     level_keep_doubles(r, sum, r->count);
 }
 
+static void begin_float(level_run *r) {
+    double *sum = level_doubles(r, r->count), weight = level_uniform(r, -1, 1);
+    float *pixel = level_floats(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->begin_float(sum, pixel, weight, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] = 0 + weight * (double)pixel[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
 static void set_rows(level_run *r) {
     double *sum = level_doubles(r, r->count);
     float *a = level_floats(r, r->count), *b = level_floats(r, r->count);
@@ -60,6 +68,18 @@ static void add_tap(level_run *r) {
     double weight = level_uniform(r, -1, 1);
     if (!r->plain) wf_row_ops_at(r->level)->add_tap(sum, row, weight, r->count);
     for (size_t i = 0; r->plain && i < r->count; i++) sum[i] += weight * row[i];
+    level_keep_doubles(r, sum, r->count);
+}
+
+static void add_taps(level_run *r) {
+    size_t taps = level_draw(r) % 8;
+    double *sum = level_doubles(r, r->count), *row = level_doubles(r, r->count + taps);
+    double *weight = level_doubles(r, taps);
+    if (taps > 2) weight[level_draw(r) % (uint32_t)taps] = 0;
+    if (!r->plain) wf_row_ops_at(r->level)->add_taps(sum, row, weight, taps, r->count);
+    for (size_t t = 0; r->plain && t < taps; t++)
+        for (size_t i = 0; i < r->count; i++)
+            if (weight[t] != 0) sum[i] += weight[t] * row[i + t];
     level_keep_doubles(r, sum, r->count);
 }
 
@@ -96,7 +116,8 @@ static const level_row rows[] = {
     {"rows.add_float", add_float, true, 0}, {"rows.set_rows", set_rows, true, 0},
     {"rows.add_row", add_row, true, 0},     {"rows.add_tap", add_tap, true, 0},
     {"rows.invert", invert, true, 0},       {"rows.multiply", multiply, true, 0},
-    {"rows.split", split, true, 0},
+    {"rows.split", split, true, 0},         {"rows.begin_float", begin_float, true, 0},
+    {"rows.add_taps", add_taps, true, 0},
 };
 
 /* ---- Apertures ---- */
