@@ -105,7 +105,8 @@ static weft_status make_all(wf_run *run, weft_error *err) {
 static weft_status settle(wf_run *run, weft_error *err) {
     run->kind = wf_source_for(run->job);
     if (!wf_output_for(run->job->output, run->job->codec, err).kind) return WEFT_USAGE;
-    weft_status status = run->kind->open(run, err);
+    weft_status status = wf_source_check(run->kind, run->job, err);
+    if (!status) status = run->kind->open(run, err);
     if (!status) status = wf_setup_sound(run->job, &run->setup, &run->report->taken, err);
     if (!status) status = wf_setup_output(run->job, &run->setup, err);
     if (!status) status = run->kind->count(run, err);
@@ -136,7 +137,7 @@ static void tell(const wf_run *run) {
     report->color_s = times.color_s;
     if (run->frames) wf_frames_tell(run->frames, report);
     if (run->sums) run->kind->summing->tell(run, report);
-    run->kind->tell(run, report);
+    if (run->source) run->kind->tell(run, report); /* else it was not opened */
     if (run->finished) wf_setup_tell_sound(&run->setup);
 }
 

@@ -87,6 +87,9 @@ typedef struct wf_source_kind {
 /* The first kind of the table (sources.c) that takes the job; never NULL. */
 const wf_source_kind *wf_source_for(const weft_job *job);
 
+/* WEFT_USAGE where the job has options of subframes that this kind would pass over. */
+weft_status wf_source_check(const wf_source_kind *kind, const weft_job *job, weft_error *err);
+
 /* Its rows, each of a file source_NAME.c. A scene, sampled where fields look: a unit is the
  * window of one field or, where windows overlap, one field period. */
 extern const wf_source_kind wf_source_scene;

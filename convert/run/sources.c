@@ -14,3 +14,13 @@ const wf_source_kind *wf_source_for(const weft_job *job) {
     while (n < last && !kinds[n]->takes(job)) n++;
     return kinds[n];
 }
+
+weft_status wf_source_check(const wf_source_kind *kind, const weft_job *job, weft_error *err) {
+    const char *option = job->layer ? "--layer" : job->part ? "--part" : NULL;
+    if (!option || kind == &wf_source_subframes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_USAGE,
+        "%s: %s chooses among the layers and parts of EXR subframes, and the input is "
+        "%s, which has none; leave it out",
+        job->inputs[0], option, kind->name);
+}

@@ -37,8 +37,15 @@ check "says what was taken" value "d['input']['space'] == {'value': 'rec601-525'
 check "another space" exits 0 weft convert turns.y4m $box --from lin_rec709 -o f.y4m
 check "is light already" first_code f.y4m 720 25
 check "sRGB" exits 0 weft convert turns.y4m $box --from sRGB -o f.y4m --report -
-check "is an option" value "d['input']['space'] == {'value': 'sRGB', 'reason': 'option'}"
+check "is an option" value "d['input']['space'] == {'value': 'sRGB', 'reason': 'option'} and
+    d['input']['transfer'] == {'value': 'sRGB', 'reason': 'option'}"
 check "a space that there is not" exits 2 weft convert turns.y4m $box --from nowhere -o f.####.exr
+for option in layer part; do
+    check "--$option" exits 2 weft convert turns.y4m $box --$option 1 -o no.y4m
+    check "is for EXR" says "turns.y4m: --$option chooses"
+done
+check "an output of no kind" exits 2 weft convert turns.y4m -o no.foo
+check "a codec of another container" exits 2 weft convert turns.y4m --codec prores -o no.mxf
 check "info" exits 0 weft info turns.y4m --json
 check "says what is taken" value "d['files'][0]['input']['space']['value'] == 'rec601-525' and
     d['files'][0]['input']['rate']['value'] == '100'"
