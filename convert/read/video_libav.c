@@ -1,9 +1,30 @@
 /* Hands video of any container to the libav module. */
+#include <stdio.h>
 #include <string.h>
 
 #include "convert/base/module.h"
 #include "convert/media/libav/libav.h"
+#include "convert/media/structure/structure.h"
 #include "convert/read/video_kinds.h"
+
+/* Whether it begins as files of QuickTime and MP4 do. */
+static bool begins_with_brand(const char *path) {
+    char head[8] = "";
+    FILE *file = fopen(path, "rb");
+    bool read = file && fread(head, sizeof head, 1, file) == 1;
+    if (file) fclose(file);
+    return read && !memcmp(head + 4, "ftyp", 4);
+}
+
+/* libav opens no QuickTime and MP4 without their index, which most programs write last. */
+static weft_status tell_cut_off(const wf_video *v, weft_status status, weft_error *err) {
+    wf_structure structure = {0};
+    if (v->pipe || !begins_with_brand(v->path) ||
+        wf_structure_read(v->path, "mov", &structure, NULL) || !*structure.missing)
+        return status;
+    return wf_fail(err, WEFT_FAILED, "%s: it was cut off or is still being written: %s",
+                   v->path, structure.missing);
+}
 
 /* The module's kind replaces this one, and has the video from here on. */
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
@@ -21,7 +42,8 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     if (status) return wf_fail(err, status, "%s: %s", v->path, why.text);
     memcpy(&kind, &symbol, sizeof kind);
     v->kind = kind();
-    return v->kind->open(v, label, err);
+    status = v->kind->open(v, label, err);
+    return status == WEFT_FAILED ? tell_cut_off(v, status, err) : status;
 }
 
 static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {

@@ -34,6 +34,12 @@ for file in b.mp4 b.mkv b.ts f.mkv f.avi p.mov m.mxf; do
         check "$tenth tenths of $file" stops "cut.${file##*.}: " cut.${file##*.}
     done
 done
+coded late.mp4 -vf scale=512x256 -c:v mjpeg -q:v 1
+for bytes in 600 200000; do
+    head -c $bytes late.mp4 >cut.mp4
+    check "$bytes bytes of MP4 whose index is last" stops "cut off or is still being written" cut.mp4
+done
+check "by a pipe" fails "index.*end.*faststart" weft convert <(cat late.mp4) $box -o no.y4m
 head -c $(($(stat -c %s f.mkv) / 2)) f.mkv >cut.mkv
 check "it is said" stops "cut off.*([0-9.]* s)" cut.mkv
 check "and some is taken" exits 0 weft convert cut.mkv $box --frames 0-39 -o o.y4m
@@ -82,7 +88,7 @@ quiet_ffmpeg -f lavfi -i sine=d=1 sound.wav
 quiet_ffmpeg -f lavfi -i testsrc2=s=64x64:d=1 -frames:v 1 cover.png
 quiet_ffmpeg -i sound.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic cover.m4a
 quiet_ffmpeg -i b.mp4 -i cover.png -map 1 -map 0 -c copy -disposition:v:0 attached_pic first.mp4
-check "sound" stops "holds no video" sound.wav
+check "sound" stops "it is sound (WAV)" sound.wav
 check "sound and a cover" stops "only a picture as its cover" cover.m4a
 check "a cover before the video" exits 0 weft convert first.mp4 $box -o o.y4m
 check "video" exits 0 weft convert b.mp4 $box -o o2.y4m
@@ -94,6 +100,8 @@ quiet_ffmpeg -i b.mp4 -c copy -metadata:s:v rotate=90 turned.mov
 check "turned" stops "turned by" turned.mov
 coded pal.avi -pix_fmt pal8 -c:v rawvideo
 check "a palette" stops "pixels are pal8.*ffmpeg" pal.avi
+coded cinema.nut -pix_fmt xyz12le -c:v rawvideo
+check "X'Y'Z' of digital cinema" stops "pixels are xyz12le.*ffmpeg" cinema.nut
 for matrix in ycgco ictcp bt2020c; do
     coded matrix.mkv -c:v libx264 -colorspace $matrix
     check "$matrix" fails "matrix is number" weft convert matrix.mkv $box -o no.y4m

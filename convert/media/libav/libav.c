@@ -161,6 +161,20 @@ static bool is_damaged(reading *r) {
     return damaged;
 }
 
+/* QuickTime and MP4 are read by their index, and a pipe cannot go back from it. */
+static weft_status unread(const wf_video *v, int code, weft_error *err) {
+    const reading *r = v->state;
+    bool by_index = v->pipe && !strncmp(r->format->iformat->name, "mov,", 4);
+    if (!by_index || v->frame.index >= 0)
+        return failed(v, "it cannot be read to its end", code, err);
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its index is at its end, which a pipe comes to too late, or it was cut off "
+        "before its first picture; give the file itself, or write it with ffmpeg -i IN "
+        "-c copy -movflags +faststart OUT.mp4",
+        v->path);
+}
+
 /* Hands the decoder the next packet of the stream; at the end, that there are no more. */
 static weft_status feed(wf_video *v, weft_error *err) {
     reading *r = v->state;
@@ -170,7 +184,7 @@ static weft_status feed(wf_video *v, weft_error *err) {
         avcodec_send_packet(r->codec, NULL);
         return WEFT_OK;
     }
-    if (code < 0) return failed(v, "it cannot be read to its end", code, err);
+    if (code < 0) return unread(v, code, err);
     if (is_wanted(r)) {
         note_packet(r);
         code = is_damaged(r) ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
@@ -264,7 +278,9 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
     const uint64_t strange = AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER |
                              AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_PAL |
                              AV_PIX_FMT_FLAG_BITSTREAM;
-    if (!d || d->flags & strange || d->comp[0].depth < 8 || d->comp[0].depth > 16)
+    bool xyz =
+        d && !strncmp(d->name, "xyz", 3); /* of digital cinema; libav has no flag for it */
+    if (!d || xyz || d->flags & strange || d->comp[0].depth < 8 || d->comp[0].depth > 16)
         return wf_fail(
             err, WEFT_FAILED,
             "%s: its pixels are %s, which is not read; convert it first, such as with "
