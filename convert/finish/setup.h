@@ -36,6 +36,8 @@ typedef struct wf_setup {
     wf_chromaticities primaries;     /* of light that is written as it came in */
     wf_transform decode;             /* what --from encodes becomes light before it is summed;
                                         apply is NULL where the input is taken as it is */
+    char from_transfer[24];          /* how --from encodes: "sRGB", "linear"; "encoded" where a
+                                        configuration does not say */
     wf_transform transform;          /* apply is NULL where colors are left alone */
     wf_key_law key_law;              /* where alpha is written */
     wf_encoding encoding;            /* where codes are written */
@@ -57,6 +59,9 @@ weft_status wf_setup_sound(const weft_job *job, wf_setup *setup, wf_taken_list *
                            weft_error *err);
 weft_status wf_setup_begin_sound(const wf_setup *setup, weft_error *err);
 void wf_setup_tell_sound(const wf_setup *setup);
+
+/* Tells what --from, if it is given, has the input taken for, once the output is settled. */
+void wf_setup_take_from(const weft_job *job, const wf_setup *setup, wf_taken_list *taken);
 
 /* Settles the frames first <= n < end that the whole run makes: those of the job's chunk go to
  * first_frame and end_frame, and the sink is told of them. */

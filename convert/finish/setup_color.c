@@ -56,6 +56,9 @@ static weft_status find_own(const char *from, wf_setup *s, light *l, weft_error 
     if (!space) return wf_fail(err, WEFT_USAGE, "%s", why);
     if (space->curve && !s->decodes) return refuse_encoded(from, err);
     const wf_decoding decoding = wf_decoding_of(space->curve);
+    char curve[24];
+    snprintf(s->from_transfer, sizeof s->from_transfer, "%s",
+             wf_decoding_name(&decoding, curve));
     if (space->curve && !wf_decoding_transform(&decoding, &s->decode)) return no_memory(err);
     l->primaries = &wf_chromaticities_of[space->primaries];
     const wf_space *linear = space->curve ? wf_space_linear(space->primaries) : space;
@@ -73,6 +76,8 @@ static weft_status find_foreign(const char *from, wf_setup *s, light *l, weft_er
     if (!open(l->config, from, &input, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "%s", why);
     s->decode = input.decode;
+    snprintf(s->from_transfer, sizeof s->from_transfer, "%s",
+             s->decode.apply ? "encoded" : "linear");
     snprintf(l->space, sizeof l->space, "%s", input.light_space);
     return s->decode.apply && !s->decodes ? refuse_encoded(from, err) : WEFT_OK;
 }
@@ -112,6 +117,12 @@ static weft_status find_light(const weft_job *job, wf_setup *s, light *l, weft_e
     const wf_space *linear = like < WF_PRIMARIES_COUNT ? wf_space_linear(like) : NULL;
     if (linear) snprintf(l->space, sizeof l->space, "%s", linear->name);
     return WEFT_OK;
+}
+
+void wf_setup_take_from(const weft_job *job, const wf_setup *s, wf_taken_list *taken) {
+    if (!job->from) return;
+    wf_take(taken, "space", job->from, "option");
+    wf_take(taken, "transfer", s->from_transfer, "option");
 }
 
 /* ---- From there to the output ---- */

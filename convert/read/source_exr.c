@@ -385,16 +385,23 @@ weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part,
     return status;
 }
 
-weft_status wf_source_layers(const char *path, wf_layer_fn *tell, void *user, weft_error *err) {
-    wf_subframe *s = calloc(1, sizeof *s);
-    wf_exr_parts parts;
+/* Opens a file for its headers alone, which wf_subframe_close ends; s->exr is NULL where it is
+ * no EXR. */
+static weft_status look_into(const char *path, wf_subframe **out, weft_error *err) {
+    wf_subframe *s = *out = calloc(1, sizeof *s);
     if (!s || !(s->path = strdup(path))) {
         free(s);
+        *out = NULL;
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
     }
-    bool exr = wf_is_exr(path);
-    weft_status status = exr ? start_reading(s, err) : WEFT_OK;
-    if (exr && !status && wf_exr_parts_find(s->exr, &parts)) {
+    return wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
+}
+
+weft_status wf_source_layers(const char *path, wf_layer_fn *tell, void *user, weft_error *err) {
+    wf_subframe *s;
+    wf_exr_parts parts;
+    weft_status status = look_into(path, &s, err);
+    if (!status && s->exr && wf_exr_parts_find(s->exr, &parts)) {
         wf_each_layer(parts.part, parts.count, tell, user);
         wf_exr_parts_free(&parts);
     }
@@ -443,15 +450,11 @@ static weft_status hand_out(const timed_part *found, int count, int **part_of,
 
 weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
                                   wf_rational **time_of, weft_error *err) {
-    wf_subframe *s = calloc(1, sizeof *s);
+    wf_subframe *s;
     int parts = 0;
     *count = 0;
-    if (!s || !(s->path = strdup(path))) {
-        free(s);
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
-    }
-    weft_status status = wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
-    if (s->exr) exr_get_count(s->exr, &parts);
+    weft_status status = look_into(path, &s, err);
+    if (s && s->exr) exr_get_count(s->exr, &parts);
     timed_part *found = calloc((size_t)parts + 1, sizeof *found);
     if (!status && !found)
         status = wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for its parts", path);
@@ -463,14 +466,11 @@ weft_status wf_source_timed_parts(const char *path, int *count, int **part_of,
 }
 
 weft_status wf_source_time(const char *path, int part, wf_rational *time_s, weft_error *err) {
-    wf_subframe *s = calloc(1, sizeof *s);
+    wf_subframe *s;
     int parts = 0;
     *time_s = (wf_rational){0, 0};
-    if (!s || !(s->path = strdup(path))) {
-        free(s);
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
-    }
-    weft_status status = wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
+    weft_status status = look_into(path, &s, err);
+    if (!s) return status;
     if (s->exr) exr_get_count(s->exr, &parts);
     for (s->part = part < 0 ? 0 : part; s->part < parts && !wf_ratio_given(*time_s);
          s->part++) {

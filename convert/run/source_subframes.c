@@ -114,8 +114,7 @@ static void settle_decoding(wf_run *run) {
     if (!run->job->from) return;
     s->options.to_light = decode->apply;
     s->options.decode = decode;
-    wf_take(&run->report->taken, "space", run->job->from, "option");
-    wf_take(&run->report->taken, "transfer", decode->apply ? "encoded" : "linear", "option");
+    wf_setup_take_from(run->job, &run->setup, &run->report->taken);
 }
 
 /* ---- Rate ---- */

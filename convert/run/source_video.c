@@ -124,11 +124,7 @@ static weft_status find_meaning(wf_run *run, weft_error *err) {
 static weft_status make_light(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     const wf_transform *decode = run->job->from ? &run->setup.decode : NULL;
-    if (decode) {
-        wf_take(&run->report->taken, "space", run->job->from, "option");
-        wf_take(&run->report->taken, "transfer", decode->apply ? "encoded" : "linear",
-                "option");
-    }
+    wf_setup_take_from(run->job, &run->setup, &run->report->taken);
     return wf_light_new(&s->info, &s->meaning, decode, &s->light, err);
 }
 

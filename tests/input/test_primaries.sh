@@ -58,6 +58,8 @@ check "space by option" told space lin_rec2020 option
 check "info" exits 0 weft info cicp.png density.dpx
 check "info has it" prints "rec709 (file)"
 check "info tells what it cannot know" prints "printing density"
+exits 0 weft convert ap1.exr "${raster[@]}" --from rec2100-pq -o o.y4m --report r.json
+check "transfer by option" told transfer PQ option
 check "no such space, EXR" exits 2 weft convert ap1.exr --from nix "${raster[@]}" -o no.####.exr
 check "no such space, Y4M" exits 2 weft convert ap1.exr --from nix "${raster[@]}" -o no.y4m
 check "an encoded scene" eval 'echo "camera{eye={0, 0, 10}, look_at={0, 0, 0}}" >s.lua
