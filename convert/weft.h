@@ -31,7 +31,8 @@ typedef enum weft_status {
     WEFT_OK = 0,
     WEFT_FAILED,     /* input or output at fault: exit code 1 */
     WEFT_USAGE,      /* the request makes no sense: exit code 2 */
-    WEFT_DEGRADED,   /* finished, but frames were held, or NaN and Inf replaced: exit code 3 */
+    WEFT_DEGRADED,   /* finished, but frames were held, NaN and Inf replaced, or the error asked
+                        for not reached: exit code 3 */
     WEFT_NO_MEMORY,  /* an allocation failed or --max-memory would not do: exit code 1 */
     WEFT_INTERRUPTED /* weft_job_cancel: nothing half-written is left */
 } weft_status;

@@ -47,7 +47,7 @@ typedef struct wf_report {
     double trace_s; /* summed over threads, as all of these but wall_s are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
-    bool degraded;             /* frames were held, or NaN and Inf replaced */
+    bool degraded;             /* frames were held, NaN and Inf replaced, an error not reached */
     const char *error;         /* why the run failed; NULL: it did not */
 } wf_report;
 

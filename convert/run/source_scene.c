@@ -234,6 +234,9 @@ void wf_scene_tell_traced(const wf_run *run, wf_report *report) {
     }
 }
 
+/* The share of cells that may take more samples than there are: 99 % of pixels are promised. */
+#define UNREACHED 0.005
+
 /* All that was looked at was proved to be background. */
 static void warn_of_nothing(const wf_run *run, const wf_report *report) {
     const wf_scene_source *s = run->source;
@@ -245,9 +248,24 @@ static void warn_of_nothing(const wf_run *run, const wf_report *report) {
                     run->job->inputs[0]);
 }
 
+/* An error that takes more samples than there may be is not reached, and said to be. */
+static void tell_error(const wf_run *run, const wf_error_sum *all, wf_report *report) {
+    double error = wf_ratio_value(run->job->error), most = UNREACHED * all->cells;
+    if (!(all->cells > 0)) return;
+    report->error_estimate = sqrt(all->square / all->cells);
+    if (all->short_of <= most && report->error_estimate <= error) return;
+    report->degraded = true;
+    wf_job_warn(
+        run->job,
+        "%s: --error %g is not reached: %.3g %% of the picture would take more than "
+        "%d samples a pixel; ask for %.2g, or see what is so bright or fine in the scene",
+        run->job->inputs[0], error, 100 * all->short_of / all->cells, WF_MOST_SAMPLES,
+        fmax(2 * error, 2 * report->error_estimate));
+}
+
 static void tell(const wf_run *run, wf_report *report) {
     const wf_scene_source *s = run->source;
-    wf_error_sum all = {0, 0};
+    wf_error_sum all = {0, 0, 0};
     if (!run->sums) return;
     wf_scene_tell_traced(run, report);
     warn_of_nothing(run, report);
@@ -256,8 +274,9 @@ static void tell(const wf_run *run, wf_report *report) {
         wf_error_sum one = wf_sampling_error(s->scratch[t]);
         all.square += one.square;
         all.cells += one.cells;
+        all.short_of += one.short_of;
     }
-    if (all.cells > 0) report->error_estimate = sqrt(all.square / all.cells);
+    tell_error(run, &all, report);
 }
 
 static const wf_sample_reading reading = {

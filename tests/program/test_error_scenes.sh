@@ -21,4 +21,9 @@ check "stars that no neighbor tells of" keeps 0.005 box stars
 is_long && check "a far checker, mirrors, thin spokes at 900 rpm" keeps 0.04,0.01 box,shaped \
     far_checker mirrors fast_spokes
 
+# What would take more samples than there may be.
+check "an error out of reach" exits 3 weft render "$WEFT_SOURCE/tests/bench/scenes/dust.lua" --error 0.0001 \
+    --raster 12x8@30i,tff,par=1:1 --frames 0 -o far.y4m
+check "says so" says "error 0.0001 is not reached"
+
 finish

@@ -32,6 +32,9 @@
 #define TOLERATED    1.2
 #define MOST_AT_ONCE 16
 
+/* From this part of the square of what a cell may be off on, more samples would be needed. */
+#define SHORT 2
+
 /* What is said of errors' squares, beside what was found: rather too much. */
 #define SAID 1.15
 
@@ -223,6 +226,8 @@ static void sum_errors(const wf_adaptive *a) {
         if (!a->cell[at].own) continue;
         a->c->error.square += SAID * (a->cell[at].need + a->edge[at].error);
         a->c->error.cells++;
+        a->c->error.short_of += a->cell[at].each >= WF_MOST_EACH &&
+                                a->cell[at].need > SHORT * wf_adaptive_target(a);
     }
 }
 

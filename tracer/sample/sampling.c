@@ -184,15 +184,17 @@ static bool adapt(wf_tile *t, int first, int end, bool empty) {
     wf_error_sum *sum = &t->c->error, before = *sum;
     if (!wf_adaptive_tile(t, first, end, empty)) return false;
     t->s->tile_error[tile_index(t, first)] =
-        (wf_error_sum){sum->square - before.square, sum->cells - before.cells};
+        (wf_error_sum){sum->square - before.square, sum->cells - before.cells,
+                       sum->short_of - before.short_of};
     return true;
 }
 
 static void recall_error(wf_tile *t, int first, int end, bool background) {
     wf_error_sum *sum = &t->c->error, *tile = &t->s->tile_error[tile_index(t, first)];
-    if (background) *tile = (wf_error_sum){0, (double)((end - first) * (t->x1 - t->x0))};
+    if (background) *tile = (wf_error_sum){0, (double)((end - first) * (t->x1 - t->x0)), 0};
     sum->square += tile->square;
     sum->cells += tile->cells;
+    sum->short_of += tile->short_of;
 }
 
 /* Adaptive tiles look at what is about them, too, which then has to be still as they are. */

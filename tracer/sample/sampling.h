@@ -57,11 +57,15 @@ bool wf_sampling_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch,
 
 wf_trace_counts wf_sampling_counted(const wf_sampling_scratch *scratch);
 
-/* What the adaptive sampling thinks of its own error: mean square over `cells` cells, as sums.
- */
+/* What the adaptive sampling thinks of its own error: mean square over `cells` cells, as sums;
+ * and how many of these would take more than WF_MOST_SAMPLES. */
 typedef struct wf_error_sum {
-    double square, cells;
+    double square, cells, short_of;
 } wf_error_sum;
+
+/* The most that a cell has, however small an error is asked for. */
+#define WF_MOST_SAMPLES 8192
+
 wf_error_sum wf_sampling_error(const wf_sampling_scratch *scratch);
 
 /* One subframe: samples in a regular grid at an instant, rows first <= j < end of a picture of

@@ -13,7 +13,7 @@
 
 /* Adaptive samples of a cell come in quarters, each of at most so many. */
 #define WF_QUARTERS  4
-#define WF_MOST_EACH 2048
+#define WF_MOST_EACH (WF_MOST_SAMPLES / WF_QUARTERS)
 
 /* Samples that are kept until it is known what weight they have. Arrays of [capacity]. */
 typedef struct wf_adaptive_samples {
