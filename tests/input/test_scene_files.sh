@@ -58,7 +58,7 @@ check "ten million solids" fails '64 MB; --scene-memory allows more' weft render
 hostile=${WEFT_SHARED:-}/data/cases/hostile
 for script in "$hostile"/{xp1,sort,cat}.lua; do
     [ -e "$script" ] || { skip_part "$hostile is not there"; break; }
-    check "$(basename "$script") ends" fails 'more than 1000 steps' timeout 20 "$WEFT" weft render "${small[@]}" "$script" \
+    check "$(basename "$script") ends" fails 'more than 1000 steps' timeout 20 "$WEFT" render "${small[@]}" "$script" \
         --scene-steps 1000 -o f.y4m
 done
 
