@@ -130,8 +130,9 @@ static bool begins_as(const wf_kind *k, const unsigned char *head, size_t bytes)
 
 static weft_status refuse(const char *path, const char *name, const char *advice,
                           weft_error *err) {
-    return wf_fail(err, WEFT_FAILED, "%.700s: it is %s, which weft does not read; %s", path,
-                   name, advice);
+    bool sound = !strncmp(name, "sound", strlen("sound")); /* which --audio takes */
+    return wf_fail(err, WEFT_FAILED, "%.700s: it is %s, which %s; %s", path, name,
+                   sound ? "holds no video" : "weft does not read", advice);
 }
 
 static weft_status refuse_head(const char *path, const unsigned char *head, size_t bytes,

@@ -88,7 +88,10 @@ quiet_ffmpeg -f lavfi -i sine=d=1 sound.wav
 quiet_ffmpeg -f lavfi -i testsrc2=s=64x64:d=1 -frames:v 1 cover.png
 quiet_ffmpeg -i sound.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic cover.m4a
 quiet_ffmpeg -i b.mp4 -i cover.png -map 1 -map 0 -c copy -disposition:v:0 attached_pic first.mp4
-check "sound" stops "it is sound (WAV)" sound.wav
+check "sound" stops "sound (WAV), which holds no video.*--audio" sound.wav
+quiet_ffmpeg -i sound.wav sound.mka
+check "sound in a container of video" stops "sound (Matroska / WebM), which holds no video.*--audio" sound.mka
+check "as info says" fails "sound (Matroska / WebM), which holds no video" weft info sound.mka
 check "sound and a cover" stops "only a picture as its cover" cover.m4a
 check "a cover before the video" exits 0 weft convert first.mp4 $box -o o.y4m
 check "video" exits 0 weft convert b.mp4 $box -o o2.y4m

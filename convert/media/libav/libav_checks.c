@@ -7,6 +7,16 @@
 
 /* ---- The stream ---- */
 
+weft_status wf_libav_no_video(AVFormatContext *format, const char *path, weft_error *err) {
+    if (av_find_best_stream(format, AVMEDIA_TYPE_AUDIO, -1, -1, NULL, 0) < 0)
+        return wf_fail(err, WEFT_FAILED, "%.700s: it holds no video", path);
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%.700s: it is sound (%s), which holds no video; 'ffmpeg -i IN OUT.wav' makes "
+        "WAV of it; --audio FILE.wav takes sound, beside pictures or video",
+        path, format->iformat->long_name);
+}
+
 /* Degrees, clockwise. */
 static double turn_of(const AVStream *stream) {
     size_t bytes;

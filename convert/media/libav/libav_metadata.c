@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "convert/media/libav/libav_packets.h"
+#include "convert/media/libav/libav_reading.h"
 
 WEFT_API wf_libav_metadata_fn wf_libav_metadata;
 
@@ -103,7 +104,7 @@ static weft_status read_contents(AVFormatContext *format, int video, wf_metadata
 static weft_status read_format(AVFormatContext *format, const char *path, wf_metadata *c,
                                weft_error *err) {
     int video = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
-    if (video < 0) return wf_fail(err, WEFT_FAILED, "%.700s: it holds no video", path);
+    if (video < 0) return wf_libav_no_video(format, path, err);
     size_t first = strcspn(format->iformat->name, ",");
     snprintf(c->container, sizeof c->container, "%.*s", (int)first, format->iformat->name);
     const AVDictionaryEntry *brand = av_dict_get(format->metadata, "major_brand", NULL, 0);

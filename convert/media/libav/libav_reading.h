@@ -39,6 +39,10 @@ void wf_libav_close_stream(wf_video *video);
 /* Decodes until a frame is there, however damaged, or the stream has ended. */
 weft_status wf_libav_decode(wf_video *video, weft_error *err);
 
+/* The error of a container without video: where there is sound, that it is sound, and what
+ * takes it. (libav_checks.c) */
+weft_status wf_libav_no_video(AVFormatContext *format, const char *path, weft_error *err);
+
 /* With the first frame in hand: whether the stream is shown as it is coded, not turned. Notes
  * what other frames are held against. (libav_checks.c) */
 weft_status wf_libav_check_stream(wf_video *video, weft_error *err);
