@@ -64,6 +64,9 @@ typedef struct wf_signal_loops {
     /* The same for two phases that reach equally far. */
     void (*weigh_pair)(float *const out[2], const float *chroma, ptrdiff_t step,
                        const wf_upsample_phase phase[2], size_t count);
+    /* rgb of codes of luma that have one byte: fills r, and what cb and cr hold. */
+    void (*rgb_of_bytes)(const wf_rgb_of_chroma *matrix, const uint8_t *luma, double zero,
+                         float *r, float *cb_to_g, float *cr_to_b, size_t count);
     /* In place. */
     void (*rgb)(const wf_rgb_of_chroma *matrix, float *y_to_r, float *cb_to_g, float *cr_to_b,
                 size_t count);

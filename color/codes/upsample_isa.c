@@ -101,6 +101,20 @@ static void rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *restri
     }
 }
 
+static void rgb_of_bytes(const wf_rgb_of_chroma *matrix, const uint8_t *restrict code,
+                         double zero, float *restrict r, float *restrict cb, float *restrict cr,
+                         size_t count) {
+    float whole_zero = (float)zero, of_y = (float)matrix->luma, of_cr = (float)matrix->of_cr,
+          of_cb = (float)matrix->of_cb;
+    float green_cb = (float)matrix->green_cb, green_cr = (float)matrix->green_cr;
+    for (size_t i = 0; i < count; i++) {
+        float luma = of_y * ((float)code[i] - whole_zero), blue = cb[i], red = cr[i];
+        r[i] = luma + of_cr * red;
+        cb[i] = luma - (green_cb * blue + green_cr * red);
+        cr[i] = luma + of_cb * blue;
+    }
+}
+
 /* ---- In double ---- */
 
 static void fine_signals(float *restrict signal, const uint16_t *restrict code, double zero,
@@ -144,6 +158,13 @@ static void fine_rgb(const wf_rgb_of_chroma *matrix, float *restrict y, float *r
     }
 }
 
+static void fine_rgb_of_bytes(const wf_rgb_of_chroma *matrix, const uint8_t *restrict code,
+                              double zero, float *restrict r, float *restrict cb,
+                              float *restrict cr, size_t count) {
+    for (size_t i = 0; i < count; i++) r[i] = (float)(code[i] - zero);
+    fine_rgb(matrix, r, cb, cr, count);
+}
+
 /* ---- Both ---- */
 
 static void interleave(float *restrict out, const float *restrict even,
@@ -155,7 +176,8 @@ static void interleave(float *restrict out, const float *restrict even,
 }
 
 const wf_upsample_ops WF_ISA_TABLE(wf_upsample_ops) = {
-    .quick = {signals, of_bytes, weigh, weigh_pair, rgb},
-    .fine = {fine_signals, fine_of_bytes, fine_weigh, fine_weigh_pair, fine_rgb},
+    .quick = {signals, of_bytes, weigh, weigh_pair, rgb_of_bytes, rgb},
+    .fine = {fine_signals, fine_of_bytes, fine_weigh, fine_weigh_pair, fine_rgb_of_bytes,
+             fine_rgb},
     .interleave = interleave,
 };

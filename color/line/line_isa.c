@@ -147,6 +147,17 @@ static inline lanes gamma_decode(const wf_curve *c, lanes signal) {
                         signal);
 }
 
+/* The same of a curve without offset, gain and toe. */
+static inline lanes pure_gamma_decode(const wf_curve *c, lanes signal) {
+    lanes v = magnitude_within(signal, WF_MOST_SIGNAL);
+    lanes light = to_gamma(larger(v, lanes_of(WF_GAMMA_BLACK)));
+    return with_sign_of(by_limit(v, lanes_of(c->toe_signal), lanes_of(0), light), signal);
+}
+
+static bool is_pure(const wf_curve *c) {
+    return c->gain == 1 && c->offset == 0 && c->toe_light == 0;
+}
+
 typedef lanes of_lanes(const wf_curve *curve, lanes x);
 
 static inline void each(const wf_curve *curve, of_lanes *of, float *line, size_t count) {
@@ -168,7 +179,9 @@ static void power_curve(const wf_curve *curve, float *restrict light, size_t cou
 }
 
 static void power_decode(const wf_curve *curve, float *restrict signal, size_t count) {
-    if (has_gamma(curve))
+    if (has_gamma(curve) && is_pure(curve))
+        each(curve, pure_gamma_decode, signal, count);
+    else if (has_gamma(curve))
         each(curve, gamma_decode, signal, count);
     else
         any_power_decode(curve, signal, count);

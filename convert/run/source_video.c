@@ -324,7 +324,7 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
         .timing = s->timing,
         .channels = 3,
         .background = {job->background[0], job->background[1], job->background[2]},
-        .band_rows = 16,
+        .band_rows = 8,
     };
     wf_fit_picture(job, &s->first, &desc.x, &desc.y);
     return desc;

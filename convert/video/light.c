@@ -199,10 +199,15 @@ static void fill_chroma(const wf_light *l, const rows_made *m, int y, float *con
 
 static void light_row(const wf_light *l, const rows_made *m, const void *luma, int y,
                       float *const rgb[3]) {
-    size_t width = (size_t)l->width_px;
-    take_signals(l, rgb[0], luma, 0, (size_t)y * width, width);
+    size_t width = (size_t)l->width_px, at = (size_t)y * width;
+    bool of_bytes = l->meaning.ycbcr && l->code_bytes == 1;
+    if (!of_bytes) take_signals(l, rgb[0], luma, 0, at, width);
     fill_chroma(l, m, y, rgb);
-    if (l->meaning.ycbcr) l->loops->rgb(&l->matrix, rgb[0], rgb[1], rgb[2], width);
+    if (of_bytes)
+        l->loops->rgb_of_bytes(&l->matrix, (const uint8_t *)luma + at, l->zero[0], rgb[0],
+                               rgb[1], rgb[2], width);
+    else if (l->meaning.ycbcr)
+        l->loops->rgb(&l->matrix, rgb[0], rgb[1], rgb[2], width);
     if (l->decode.apply) l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
 }
 

@@ -258,6 +258,29 @@ static void fine_rgb(level_run *r) {
     rgb(r, true);
 }
 
+/* As codes to signals and these to R'G'B'. */
+static void rgb_of_bytes(level_run *r, bool fine) {
+    const wf_rgb_of_chroma m = {1 / 219.0, 1.5748 / 224, 1.8556 / 224, 0.1873 / 224,
+                                0.4681 / 224};
+    const uint8_t *code = (uint8_t *)level_halves(r, r->count);
+    float *ycc[3];
+    for (int c = 0; c < 3; c++) ycc[c] = level_floats(r, r->count);
+    const wf_upsample_ops *ops = wf_upsample_ops_at(r->plain ? 0 : r->level);
+    const wf_signal_loops *loops = fine ? &ops->fine : &ops->quick;
+    if (!r->plain) loops->rgb_of_bytes(&m, code, 16, ycc[0], ycc[1], ycc[2], r->count);
+    if (r->plain) loops->of_bytes(ycc[0], code, 16, 1, r->count);
+    if (r->plain) loops->rgb(&m, ycc[0], ycc[1], ycc[2], r->count);
+    keep_planes(r, ycc);
+}
+
+static void quick_rgb_of_bytes(level_run *r) {
+    rgb_of_bytes(r, false);
+}
+
+static void fine_rgb_of_bytes(level_run *r) {
+    rgb_of_bytes(r, true);
+}
+
 static void interleave(level_run *r) {
     float *even = level_floats(r, r->count), *odd = level_floats(r, r->count);
     float *out = level_floats(r, 2 * r->count);
@@ -274,6 +297,8 @@ static const level_row upsample_rows[] = {
     {"quick.weigh_pair", quick_weigh_pair, true, 0},
     {"fine.weigh_pair", fine_weigh_pair, true, 0},
     {"quick.rgb", quick_rgb, true, 3e-7},
+    {"quick.rgb_of_bytes", quick_rgb_of_bytes, true, 0},
+    {"fine.rgb_of_bytes", fine_rgb_of_bytes, true, 0},
     {"fine.signals", fine_signals, true, 0},
     {"fine.of_bytes", fine_of_bytes, true, 0},
     {"fine.weigh", fine_weigh, true, 0},
