@@ -96,7 +96,7 @@ wf_verdict wf_check_groups(const wf_subject *s, wf_finding *f) {
 
 /* ---- How large it is ---- */
 
-/* Bits that a decoder of MPEG-2's 4:2:2 Profile at High Level holds back (H.262, table 8-14):
+/* Bits that a decoder of MPEG-2's 4:2:2 Profile at High Level holds back (Rec. ITU-T H.262):
  * by so much what has come differs from a constant rate at most. */
 #define BUFFER_BITS 47185920.0
 

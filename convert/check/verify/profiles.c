@@ -12,8 +12,8 @@
 #define BOTH_1080I  "1080i50 1080i59.94"
 #define PCM         .sound_codec = "pcm_s16le pcm_s24le"
 
-/* MPEG-2's 4:2:2 Profile at High Level (Rec. ITU-T H.262, tables 8-2 and 8-5), of 50 Mb/s:
- * groups as bmx and libavcodec make them for these. */
+/* MPEG-2's 4:2:2 Profile at High Level (Rec. ITU-T H.262), of 50 Mb/s, in groups of half a
+ * second. */
 #define XDCAM(raster, pictures)                                                                \
     MXF("mpeg2video"), .rasters = raster, .bits = 8, .codec_profile = "4:2:2", .level = 2,     \
                        .chroma = "yuv422p", .group = pictures, .between = true,                \
@@ -44,8 +44,7 @@
 #define DV50(raster, bytes)                                                                    \
     .codec = "dvvideo", .rasters = raster, .bits = 8, .chroma = "yuv422p", .group = 1,         \
     .frame_bytes = bytes, .not_checked = "sound within the frames, subcode"
-/* 120, 185 and 220 Mb/s by the compression IDs of ST 2019-1, as FFmpeg's dnxhddata.c has them.
- */
+/* 120, 185 and 220 Mb/s (SMPTE ST 2019-1); the sizes are those that libavcodec writes. */
 #define DNXHD(raster)                                                                          \
     .codec = "dnxhd", .rasters = raster, .codec_profile = "DNXHD", .group = 1,                 \
     .chroma = "yuv422p", .frame_bytes = "606208 917504",                                       \
