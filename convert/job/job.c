@@ -142,8 +142,10 @@ weft_status wf_job_check_alpha(const weft_job *job, weft_error *err) {
     bool writes_alpha = wf_job_writes_alpha(job);
     const float *behind = job->background;
     const rule rules[] = {
-        {writes_alpha && job->command != WF_CONVERT,
-         "--alpha-out and --key are for convert: alpha of scenes is not traced"},
+        {writes_alpha && job->command == WF_TRACE,
+         "--alpha-out and --key are for fields, and trace stores samples; give them to render"},
+        {writes_alpha && wf_ratio_given(job->error),
+         "--error looks at color alone: with --alpha-out or --key give --samples"},
         {writes_alpha && (behind[0] != 0 || behind[1] != 0 || behind[2] != 0),
          "--alpha-out and --key leave what is behind the pictures open, and --background fills "
          "it; give one of them"},

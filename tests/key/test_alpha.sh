@@ -116,6 +116,6 @@ check "straight EXR" refused "always premultiplied" --alpha-out --fill straight 
 check "a law of codes for light" refused "holds light" --alpha-out --key-law encoded -o no.####.exr
 check "a fill of nothing" refused "--alpha-out too" --fill straight -o no.####.png
 check "a background" refused "--background fills it" --alpha-out --background 1,1,1 -o no.####.png
-check "a scene" exits 2 weft render "$WEFT_SOURCE/examples/scenes/still.lua" --alpha-out -o no.####.png
+check "samples that are stored" exits 2 weft trace "$WEFT_SOURCE/examples/scenes/still.lua" --alpha-out -o no.####.exr
 
 finish

@@ -128,7 +128,7 @@ check "resuming unlike things" refused "both are sequences" -o no.####.png --key
 check "a chunk of a container" refused "cannot be joined" -o no.y4m --key no.mov --chunk 1/2
 check "a background" refused "--background fills it" -o no.y4m --key no2.y4m --background 1,1,1
 check "a law of codes for light" refused "holds light" -o no.####.exr --key no.y4m --key-law encoded
-check "a scene" exits 2 weft render "$WEFT_SOURCE/examples/scenes/still.lua" --key no.y4m -o no2.y4m
+check "samples" exits 2 weft trace "$WEFT_SOURCE/examples/scenes/still.lua" --key no.y4m -o no.####.exr
 check "an input" exits 2 weft "${fields[@]}" -o no.####.exr --key "shot/s.####.exr" --overwrite
 check "nothing is left" eval "! ls no* 2>/dev/null"
 

@@ -57,7 +57,8 @@ static bool trace_drawn(const wf_tile *t, double late, size_t count) {
         .y = c->trace_y,
         .f = c->trace_f,
         .late_s = t->s->periods ? 0 : late * wf_ratio_value(wf_sampling_period(t->s)),
-        .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+        .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]},
+        .alpha = c->alpha};
     if (!count) return true;
     if (!wf_trace(t->s->tracer, c->trace, &traced)) return false;
     const wf_samples samples = {.count = count,
@@ -65,7 +66,8 @@ static bool trace_drawn(const wf_tile *t, double late, size_t count) {
                                 .y = c->y,
                                 .t = c->t,
                                 .field = t->s->field,
-                                .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+                                .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]},
+                                .alpha = c->alpha};
     t->receiver->samples(t->receiver->user, &samples);
     return true;
 }

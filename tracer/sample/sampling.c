@@ -58,7 +58,8 @@ wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *s) {
     if (!c) return NULL;
     size_t fixed = TILE_WIDTH * (size_t)s->desc.count;
     c->capacity = fixed > WF_MOST_EACH ? fixed : WF_MOST_EACH;
-    float **const floats[] = {&c->x, &c->y, &c->f, &c->t, &c->rgb[0], &c->rgb[1], &c->rgb[2]};
+    float **const floats[] = {&c->x,      &c->y,      &c->f,      &c->t,
+                              &c->rgb[0], &c->rgb[1], &c->rgb[2], &c->alpha};
     double **const doubles[] = {&c->trace_x, &c->trace_y, &c->trace_f};
     bool good = (c->trace = wf_trace_scratch_new(s->tracer)) != NULL;
     for (size_t n = 0; n < sizeof floats / sizeof *floats; n++)
@@ -73,7 +74,7 @@ wf_sampling_scratch *wf_sampling_scratch_new(const wf_sampling *s) {
 void wf_sampling_scratch_free(wf_sampling_scratch *c) {
     if (!c) return;
     wf_trace_scratch_free(c->trace);
-    float *const floats[] = {c->x, c->y, c->f, c->t, c->rgb[0], c->rgb[1], c->rgb[2]};
+    float *const floats[] = {c->x, c->y, c->f, c->t, c->rgb[0], c->rgb[1], c->rgb[2], c->alpha};
     double *const doubles[] = {c->trace_x, c->trace_y, c->trace_f};
     for (size_t n = 0; n < sizeof floats / sizeof *floats; n++) free(floats[n]);
     for (size_t n = 0; n < sizeof doubles / sizeof *doubles; n++) free(doubles[n]);
@@ -151,6 +152,7 @@ static const float *background_of(const wf_tile *t, int first, int end) {
     const double y[2] = {first - TILE_HEIGHT, end + TILE_HEIGHT};
     /* Of windows that see several units nothing is known yet but of this one. */
     if (t->s->periods && !wf_tracer_still(t->s->tracer)) return NULL;
+    if (t->s->desc.scene->background_clear > 0) return NULL; /* whose alpha `all` cannot tell */
     if (!t->s->desc.skip || 2 * a->reach_u > TILE_WIDTH || 2 * a->reach_v > TILE_HEIGHT)
         return NULL;
     bool nothing = t->s->nothing || wf_trace_nothing(t->s->tracer, t->c->trace, x, y);

@@ -50,7 +50,7 @@ typedef struct wf_edge_scratch {
 struct wf_sampling_scratch {
     wf_trace_scratch *trace;
     size_t capacity; /* samples */
-    float *x, *y, *f, *t, *rgb[3];
+    float *x, *y, *f, *t, *rgb[3], *alpha;
     double *trace_x, *trace_y, *trace_f;
     wf_adaptive_samples kept, probes;
     wf_edge_scratch edges;

@@ -58,6 +58,7 @@ static const struct {
     {"angle deg", "degrees", NULL},
     {"speed rate velocity", "rpm", NULL},
     {"ior n", "index", "index (with refract=)"},
+    {"matte cutout", "holdout", NULL},
     {"transparency transparent transmission opacity alpha glass", "refract", NULL},
     {"mirror reflection reflectivity metal reflectance", "reflect", NULL},
     {"gloss glossiness roughness shiny", "shininess", NULL},

@@ -19,7 +19,7 @@ static int call_temporal_width(lua_State *lua) {
 typedef struct look {
     float color[3];
     double ambient, diffuse, specular, shininess, reflect, refract, index;
-    bool unlit;
+    bool unlit, holdout;
 } look;
 
 /* Keys that say nothing without another. */
@@ -44,8 +44,9 @@ static int call_material(lua_State *lua) {
         {"refract", WF_KEY_SHARE, offsetof(look, refract), false},
         {"index", WF_KEY_POSITIVE, offsetof(look, index), false},
         {"unlit", WF_KEY_BOOL, offsetof(look, unlit), false},
+        {"holdout", WF_KEY_BOOL, offsetof(look, holdout), false},
         {0}};
-    look k = {{0.8f, 0.8f, 0.8f}, 0.1, 0.9, 0, 40, 0, 0, 1.5, false};
+    look k = {{0.8f, 0.8f, 0.8f}, 0.1, 0.9, 0, 40, 0, 0, 1.5, false, false};
     wf_builder *b = wf_builder_of(lua);
     wf_check_node(lua, 1, "material");
     wf_read_keys(lua, 2, "material", keys, 0, &k);
@@ -57,7 +58,8 @@ static int call_material(lua_State *lua) {
                      .reflect = (float)k.reflect,
                      .refract = (float)k.refract,
                      .index = k.index,
-                     .unlit = k.unlit};
+                     .unlit = k.unlit,
+                     .holdout = k.holdout};
     lua_getfield(lua, 2, "texture");
     if (!lua_isnil(lua, -1)) {
         const wf_texture *texture = luaL_testudata(lua, -1, WF_LUA_TEXTURE);

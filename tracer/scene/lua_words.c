@@ -35,9 +35,20 @@ static int call_duration(lua_State *lua) {
     return 0;
 }
 
+/* Takes alpha out of the table that background was given, which may have no other name; whether
+ * a color is left. */
+static bool take_alpha(lua_State *lua) {
+    static const wf_lua_key keys[] = {{"alpha", WF_KEY_SHARE, 0, false}, {0}};
+    double alpha = 1;
+    wf_read_keys(lua, 1, "background", keys, 3, &alpha);
+    wf_builder_of(lua)->scene->background_clear = (float)(1 - alpha);
+    return lua_rawlen(lua, 1) > 0 || !wf_has_key(lua, 1, "alpha");
+}
+
 static int call_background(lua_State *lua) {
     static const wf_lua_key only[] = {{"color", WF_KEY_COLOR, 0, true}, {0}};
     wf_only_value(lua, "background", 1);
+    if (lua_istable(lua, 1) && !take_alpha(lua)) return 0;
     lua_newtable(lua);
     lua_insert(lua, 1);
     lua_setfield(lua, 1, "color");

@@ -81,6 +81,7 @@ typedef struct wf_material {
     float refract; /* share of light that passes; 0: opaque */
     double index;  /* of refraction */
     bool unlit;    /* the color itself is what is seen */
+    bool holdout;  /* what is behind the picture is seen in its place: alpha is 0 */
 } wf_material;
 
 /* ---- Solids ---- */
@@ -174,6 +175,7 @@ typedef struct wf_camera {
 typedef struct wf_scene {
     double duration_s;
     float background[3];
+    float background_clear; /* 1 - alpha of it, which is 1 unless said */
     wf_camera camera;
     char color_space[64]; /* of its colors; "" : lin_rec709 */
     int depth_limit;      /* of reflections and refractions */

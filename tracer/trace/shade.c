@@ -246,9 +246,18 @@ static wf_vec way_on(const shading *h, int i, bool through, double *side) {
     return out;
 }
 
-static double share_of(const wf_material *m, bool through) {
-    if (!m) return 0;
+/* Of a holdout nothing is seen but that it hides. */
+static double share_of(const shading *h, int i, bool through) {
+    const wf_material *m = h->surface->material[i];
+    if (!m || (m->holdout && h->l->open)) return 0;
     return through ? (double)m->refract : (double)m->reflect;
+}
+
+/* How much of what is behind comes through, of all colors together. */
+static double clearness(const shading *h, int i) {
+    double sum = 0;
+    for (int c = 0; c < 3; c++) sum += (double)h->surface->color[c][i];
+    return sum / 3;
 }
 
 /* What comes by way of a mirror is added; what comes through takes the place of as much of the
@@ -257,7 +266,8 @@ static void mix(const shading *h, const int *lane, int lanes, bool through) {
     const wf_trace_level *next = &h->s->level[h->level + 1];
     for (int k = 0; k < lanes; k++) {
         int i = lane[k];
-        double share = share_of(h->surface->material[i], through);
+        double share = share_of(h, i, through);
+        if (through) h->l->alpha[i] = 1 - share * clearness(h, i) * (1 - next->alpha[k]);
         for (int c = 0; c < 3; c++) {
             double own = h->l->rgb[c][i], tint = h->surface->color[c][i];
             h->l->rgb[c][i] = through ? own * (1 - share) + share * tint * next->rgb[c][k]
@@ -271,9 +281,10 @@ static bool look_on(const shading *h, bool through) {
     int lane[WF_PACKET], lanes = 0;
     next->packet.rays.count = 0;
     next->packet.late_s = h->l->packet.late_s;
+    next->open = through && h->l->open;
     for (int i = 0; i < h->count; i++) {
         double side;
-        if (!(share_of(h->surface->material[i], through) > 0)) continue;
+        if (!(share_of(h, i, through) > 0)) continue;
         wf_vec way = way_on(h, i, through, &side);
         wf_vec from = wf_vec_along(at(&h->l->point, i), side * h->off[i], at(&h->l->normal, i));
         add_ray(h, i, from, way, &next->packet);
@@ -284,6 +295,19 @@ static bool look_on(const shading *h, bool through) {
     if (!wf_look_about(h->t, h->s, h->level + 1)) return false;
     mix(h, lane, lanes, through);
     return true;
+}
+
+/* Surfaces are opaque, holdouts are not there and what is behind everything has an alpha of its
+ * own, where alpha counts. Light is multiplied by it. */
+static void find_alpha(const shading *h) {
+    wf_trace_level *l = h->l;
+    for (int i = 0; i < wf_places(h->count); i++) {
+        const wf_material *m = h->surface->material[i];
+        double clear = m ? m->holdout : (double)h->t->scene->background_clear;
+        l->alpha[i] = l->open ? 1 - clear : 1;
+        if (!(l->alpha[i] < 1)) continue;
+        for (int c = 0; c < 3; c++) l->rgb[c][i] *= l->alpha[i];
+    }
 }
 
 static bool shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
@@ -297,6 +321,7 @@ static bool shade(const wf_tracer *t, wf_trace_scratch *s, int level) {
                  .surface = &surface};
     if (!paint(&h) || !bend(&h) || !add_lights(&h)) return false;
     t->light->sum(&surface, l->hits.s, t->scene->background, h.count, l->rgb);
+    find_alpha(&h);
     if (level + 1 >= s->levels) return true;
     return look_on(&h, true) && look_on(&h, false);
 }

@@ -131,12 +131,15 @@ static void take_light(const wf_trace_level *l, const wf_trace_samples *samples,
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < l->packet.rays.count; i++)
             samples->rgb[c][first + (size_t)i] = (float)l->rgb[c][i];
+    for (int i = 0; samples->alpha && i < l->packet.rays.count; i++)
+        samples->alpha[first + (size_t)i] = (float)l->alpha[i];
 }
 
 bool wf_trace(const wf_tracer *t, wf_trace_scratch *s, const wf_trace_samples *samples) {
     s->counts.samples += (int64_t)samples->count;
     for (size_t first = 0; first < samples->count; first += WF_PACKET) {
         fill_packet(t, samples, first, &s->level[0].packet);
+        s->level[0].open = true;
         if (!look_from_tile(t, s)) return false;
         take_light(&s->level[0], samples, first);
     }

@@ -39,6 +39,7 @@ typedef struct wf_trace_samples {
     const double *f;     /* fraction of the window, 0..1 */
     double late_s;       /* their instant, after the window's base */
     float *rgb[3];       /* scene-linear light: written; never NaN or infinite */
+    float *alpha;        /* by which it is multiplied: written; NULL: it is not wanted */
 } wf_trace_samples;
 
 /* The scene must outlive the tracer. NULL: no memory. */

@@ -90,7 +90,8 @@ typedef struct wf_trace_level {
     wf_hits hits;
     wf_culls culls;
     wf_points point, normal;
-    double rgb[3][WF_PACKET];
+    double rgb[3][WF_PACKET], alpha[WF_PACKET];
+    bool open; /* its rays come from the camera by way of what is clear: alpha counts */
 } wf_trace_level;
 
 struct wf_trace_scratch {
