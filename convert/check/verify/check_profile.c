@@ -18,11 +18,15 @@ wf_verdict wf_check_codec(const wf_subject *s, wf_finding *f) {
     return wf_say(f, !strcmp(is, s->profile->codec), is, s->profile->codec);
 }
 
+static wf_verdict say_number(wf_finding *f, int is, int should) {
+    char has[16], asks[16];
+    snprintf(has, sizeof has, "%d", is);
+    snprintf(asks, sizeof asks, "%d", should);
+    return wf_say(f, is == should, has, asks);
+}
+
 wf_verdict wf_check_bits(const wf_subject *s, wf_finding *f) {
-    char is[16], should[16];
-    snprintf(is, sizeof is, "%d", s->figures.info.bits);
-    snprintf(should, sizeof should, "%d", s->profile->bits);
-    return wf_say(f, s->figures.info.bits == s->profile->bits, is, should);
+    return say_number(f, s->figures.info.bits, s->profile->bits);
 }
 
 wf_verdict wf_check_channels(const wf_subject *s, wf_finding *f) {
@@ -39,10 +43,7 @@ wf_verdict wf_check_tracks(const wf_subject *s, wf_finding *f) {
 }
 
 wf_verdict wf_check_sound_bits(const wf_subject *s, wf_finding *f) {
-    char is[16], should[16];
-    snprintf(is, sizeof is, "%d", s->metadata.sound_bits);
-    snprintf(should, sizeof should, "%d", s->profile->sound_bits);
-    return wf_say(f, s->metadata.sound_bits == s->profile->sound_bits, is, should);
+    return say_number(f, s->metadata.sound_bits, s->profile->sound_bits);
 }
 
 wf_verdict wf_check_start(const wf_subject *s, wf_finding *f) {
@@ -58,10 +59,7 @@ wf_verdict wf_check_codec_profile(const wf_subject *s, wf_finding *f) {
 }
 
 wf_verdict wf_check_level(const wf_subject *s, wf_finding *f) {
-    char is[16], should[16];
-    snprintf(is, sizeof is, "%d", s->metadata.level);
-    snprintf(should, sizeof should, "%d", s->profile->level);
-    return wf_say(f, s->metadata.level == s->profile->level, is, should);
+    return say_number(f, s->metadata.level, s->profile->level);
 }
 
 /* Names of deeper pixels begin with that of those of 8 bits: yuv422p, yuv422p10le. */
