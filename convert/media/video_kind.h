@@ -36,6 +36,7 @@ typedef struct wf_video_info {
     int bits;           /* of a code; 32: floats; 16 for pictures of unknown depth */
     bool full_range;
     bool alpha;           /* there is some, which is not read */
+    int videos;           /* streams of video, of which the first is read; 0: not counted */
     int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
     wf_transfer transfer; /* of the display it is made for */
     int across, down;     /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */

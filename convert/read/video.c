@@ -101,7 +101,7 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
     info->transfer = label->transfer;
     info->rate = label->rate;
     info->aspect = label->aspect;
-    info->interlaced = label->scan_known && label->interlaced;
+    info->interlaced = label->interlaced;
     if (!given) {
         find_raster(info, label);
         if (label->matrix_known) info->raster.matrix = label->matrix;

@@ -127,11 +127,12 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     if (status) return status;
     s->first_byte = ftello(s->file);
     info->frames = wf_y4m_count(h, s->file, s->first_byte);
-    *label = (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
-                              .interlaced = h->order == 't' || h->order == 'b',
-                              .top_first = h->order == 't',
-                              .rate = h->rate,
-                              .aspect = h->aspect};
+    *label =
+        (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
+                         .interlaced = h->order && strchr("tbm", h->order), /* m: some are */
+                         .top_first = h->order == 't',
+                         .rate = h->rate,
+                         .aspect = h->aspect};
     return make_buffers(v, err);
 }
 

@@ -98,6 +98,16 @@ static void tell_alpha(const wf_run *run) {
             s->path);
 }
 
+static void tell_others(const wf_run *run) {
+    const video_source *s = run->source;
+    if (s->info.videos > 1)
+        wf_job_warn(
+            run->job,
+            "%s: it holds %d streams of video, and the first is taken; ffmpeg -i IN -map "
+            "0:v:1 -c copy OUT.mkv makes a file of the second",
+            s->path, s->info.videos);
+}
+
 /* What a tag of H.273 is that says nothing. */
 enum { UNSAID = 2 };
 
@@ -113,6 +123,7 @@ static weft_status find_meaning(wf_run *run, weft_error *err) {
     wf_meaning_take(&s->meaning, &s->info, &run->report->taken);
     run->setup.decodes = true;
     tell_alpha(run);
+    tell_others(run);
     if (run->job->from) return WEFT_OK;
     if (*s->meaning.colors.trouble)
         return wf_fail(err, WEFT_USAGE, "%s: %s", s->path, s->meaning.colors.trouble);

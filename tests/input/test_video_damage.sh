@@ -84,6 +84,11 @@ check "which is wrong" exits 0 weft convert joined.ts $box --subframe-rate 100 -
 
 # ---- No video ----
 
+quiet_ffmpeg -i b.mp4 -i late.mp4 -map 0:v -map 1:v -c copy -disposition:v:0 0 -disposition:v:1 default two.mp4
+check "two streams of video" exits 0 weft convert two.mp4 ${box/-q/} -o o.y4m
+check "are told" says "2 streams of video, and the first is taken"
+check "the first alone" exits 0 weft convert b.mp4 $box -o o2.y4m
+check "is the same" cmp o.y4m o2.y4m
 quiet_ffmpeg -f lavfi -i sine=d=1 sound.wav
 quiet_ffmpeg -f lavfi -i testsrc2=s=64x64:d=1 -frames:v 1 cover.png
 quiet_ffmpeg -i sound.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic cover.m4a

@@ -116,6 +116,9 @@ fi
 
 # ---- What is refused ----
 
+y4m mixed.y4m "W64 H32 F100:1 Im A1:1 C444p10" 40 64
+check "Y4M of which some frames are fields" exits 2 weft convert mixed.y4m $box -o no.y4m
+check "is refused too" says "--input-scan progressive"
 y4m fields.y4m "W64 H32 F25:1 It A1:1 C444p10" 4 64
 check "interlaced" refuses "bwdif" convert fields.y4m $box -o no.y4m
 check "though wrongly tagged" exits 0 weft convert fields.y4m $box --input-scan progressive -o o4.y4m

@@ -66,7 +66,7 @@ static weft_status find_stream(wf_video *v, weft_error *err) {
                       code, err);
     code = avformat_find_stream_info(r->format, NULL);
     if (code < 0) return failed(v, "its streams cannot be found out", code, err);
-    r->stream = av_find_best_stream(r->format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
+    r->stream = wf_libav_video_of(r->format, &v->info.videos);
     if (r->stream < 0) return wf_libav_no_video(r->format, v->path, err);
     if (r->format->streams[r->stream]->disposition & AV_DISPOSITION_ATTACHED_PIC)
         return wf_fail(err, WEFT_FAILED, "%s: it holds no video, only a picture as its cover",

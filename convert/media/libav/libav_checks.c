@@ -17,6 +17,19 @@ weft_status wf_libav_no_video(AVFormatContext *format, const char *path, weft_er
         path, format->iformat->long_name);
 }
 
+int wf_libav_video_of(const AVFormatContext *format, int *count) {
+    int first = -1, cover = -1, found = 0;
+    for (int i = (int)format->nb_streams - 1; i >= 0; i--) {
+        const AVStream *s = format->streams[i];
+        if (s->codecpar->codec_type != AVMEDIA_TYPE_VIDEO) continue;
+        bool is_cover = s->disposition & AV_DISPOSITION_ATTACHED_PIC;
+        *(is_cover ? &cover : &first) = i;
+        found += !is_cover;
+    }
+    if (count) *count = found;
+    return first < 0 ? cover : first;
+}
+
 /* Degrees, clockwise. */
 static double turn_of(const AVStream *stream) {
     size_t bytes;

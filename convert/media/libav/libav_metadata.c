@@ -103,7 +103,7 @@ static weft_status read_contents(AVFormatContext *format, int video, wf_metadata
 
 static weft_status read_format(AVFormatContext *format, const char *path, wf_metadata *c,
                                weft_error *err) {
-    int video = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
+    int video = wf_libav_video_of(format, NULL);
     if (video < 0) return wf_libav_no_video(format, path, err);
     size_t first = strcspn(format->iformat->name, ",");
     snprintf(c->container, sizeof c->container, "%.*s", (int)first, format->iformat->name);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "convert/job/audio.h"
+#include "convert/media/libav/libav_reading.h"
 #include "convert/media/libav/libav_sound_stream.h"
 #include "convert/media/sound_reader.h"
 
@@ -79,7 +80,7 @@ static double start_of(const AVStream *stream) {
 }
 
 static void find_zero(hearing *h, bool beside_video) {
-    int video = av_find_best_stream(h->format, AVMEDIA_TYPE_VIDEO, -1, -1, NULL, 0);
+    int video = wf_libav_video_of(h->format, NULL);
     double zero_s = h->count ? start_of(h->streams[0].stream) : 0;
     for (int i = 1; i < h->count; i++) zero_s = fmin(zero_s, start_of(h->streams[i].stream));
     if (beside_video && video >= 0) zero_s = start_of(h->format->streams[video]);

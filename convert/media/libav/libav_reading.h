@@ -32,6 +32,11 @@ typedef struct wf_libav_reading {
     AVIOContext *pipe;  /* what reads video->pipe; NULL: a file */
 } wf_libav_reading;
 
+/* The index of the stream of video that is taken: the first that is not a cover, else the first
+ * cover; below 0: there is none. `count` gets how many there are but covers, or is NULL.
+ * (libav_checks.c) */
+int wf_libav_video_of(const AVFormatContext *format, int *count);
+
 /* Opens the file and a decoder of its video; closes what was opened of them. */
 weft_status wf_libav_open_stream(wf_video *video, weft_error *err);
 void wf_libav_close_stream(wf_video *video);
