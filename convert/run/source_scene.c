@@ -234,8 +234,9 @@ void wf_scene_tell_traced(const wf_run *run, wf_report *report) {
     }
 }
 
-/* The share of cells that may take more samples than there are: 99 % of pixels are promised. */
-#define UNREACHED 0.005
+/* The share of cells that may be short of samples, of which one in six or more is off by more
+ * than the error asked for: 99 % of pixels are promised. */
+#define UNREACHED 0.02
 
 /* All that was looked at was proved to be background. */
 static void warn_of_nothing(const wf_run *run, const wf_report *report) {

@@ -32,8 +32,9 @@
 #define TOLERATED    1.2
 #define MOST_AT_ONCE 16
 
-/* From this part of the square of what a cell may be off on, more samples would be needed. */
-#define SHORT 2
+/* From this part of the square of the error asked for on, a cell is short of samples: one in
+ * six is off by more than that error. */
+#define SHORT 0.5
 
 /* What is said of errors' squares, beside what was found: rather too much. */
 #define SAID 1.15
@@ -222,12 +223,13 @@ static void begin(wf_adaptive *a, int end) {
 }
 
 static void sum_errors(const wf_adaptive *a) {
+    double error = a->s->desc.error;
     for (int at = 0; at < GRID_CELLS; at++) {
         if (!a->cell[at].own) continue;
         a->c->error.square += SAID * (a->cell[at].need + a->edge[at].error);
         a->c->error.cells++;
-        a->c->error.short_of += a->cell[at].each >= WF_MOST_EACH &&
-                                a->cell[at].need > SHORT * wf_adaptive_target(a);
+        a->c->error.short_of +=
+            a->cell[at].each >= WF_MOST_EACH && a->cell[at].need > SHORT * error * error;
     }
 }
 
