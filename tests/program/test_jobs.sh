@@ -18,6 +18,9 @@ check "trace subframes" exits 0 weft trace "$scene" "${small[@]}" --samples 1 --
     -o in.####.exr
 check "trace samples" exits 0 weft trace "$scene" "${small[@]}" --samples 2 --frames 0-1 -o deep.####.exr
 check "convert samples" exits 0 weft convert deep.####.exr "${small[@]}" -o deep.y4m
+check "convert them with alpha" exits 0 weft convert deep.####.exr "${small[@]}" --alpha-out -o deep.####.png
+echo 'background{alpha=0} camera{eye={0, 0, 9}, look_at={0, 0, 0}} add(sphere{}:material{refract=0.5}, box{min={-9, -1, 2}, max={0, 1, 3}}:material{holdout=true})' >open.lua
+check "render alpha" exits 0 weft render open.lua "${small[@]}" --samples 2 --alpha-out --key key.y4m -o open.####.png
 echo 'camera{eye={0, 0, 1}, look_at={0, 0, 0}} add(sphere{raduis=1})' >wrong.lua
 check "a scene that is wrong" fails "radius" weft render wrong.lua "${small[@]}" -o no.y4m
 
@@ -58,6 +61,10 @@ if has_libav; then
     done <<<'v210.mov v210
 prores.mov prores
 ffv1.mkv ffv1'
+    for row in "a.mov prores-4444" "a.mkv ffv1"; do
+        read -r file codec <<<"$row"
+        check "alpha in $codec" exits 3 "${convert[@]}" --raster $raster --on-missing hold --alpha-out --codec "$codec" -o "$file"
+    done
     python3 "$WEFT_SOURCE/tests/input/sound.py" wav noise.wav 44100 16 3 4000
     check "sound of a file" exits 0 weft render "$WEFT_SOURCE/examples/scenes/still.lua" --raster 64x48@25p --samples 1 \
         --frames 0-2 -q --audio noise.wav:0.01 --audio-tracks 4 -o sound.mov
