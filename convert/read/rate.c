@@ -110,10 +110,11 @@ static void drop_missing(wf_sequence *sequence) {
     for (size_t k = 0; k < sequence->count; k++)
         if (sequence->refs[k].path) sequence->refs[kept++] = sequence->refs[k];
     if (misses(sequence) && sequence->missing)
-        wf_sequence_tell(sequence,
-                         "%zu numbers are absent, and their times are not known: the pictures "
-                         "before them are shown longer",
-                         sequence->missing);
+        wf_sequence_tell(
+            sequence,
+            "numbers are absent (%zu), and their times are not known: the pictures "
+            "before them are shown longer",
+            sequence->missing);
     sequence->count = kept;
     sequence->missing = 0;
 }

@@ -296,9 +296,10 @@ static weft_status start(wf_run *run, weft_error *err) {
             "render it, or give --on-missing hold or black",
             job->inputs[0], number, missing, run->setup.sequence.count);
     run->report->degraded = true;
-    wf_job_warn(
-        job, "%s: %zu missing subframes, the first is %s: %s", job->inputs[0], missing, number,
-        job->on_missing == WF_MISSING_HOLD ? "their neighbors are held" : "they are black");
+    wf_job_warn(job, "%s: %zu subframe%s missing, the first is %s: %s", job->inputs[0], missing,
+                missing == 1 ? " is" : "s are", number,
+                job->on_missing == WF_MISSING_HOLD ? "their neighbors are held"
+                                                   : "they are black");
     return WEFT_OK;
 }
 
