@@ -11,9 +11,6 @@
  * finished. */
 #define GROUP_BYTES   ((size_t)24 << 20)
 #define MOST_IN_GROUP 16
-/* Sums are carried from group to group where windows overlap; beyond this many bytes pictures
- * are read again. */
-#define CARRIED_BYTES ((size_t)128 << 20)
 
 /* ---- How many at once ---- */
 
@@ -48,7 +45,7 @@ static void choose_pace(wf_run *run, wf_pictures *p, const wf_picture_desc *desc
     size_t group =
         at_most(allowed, GROUP_BYTES) / wf_resampler_field_bytes(p->resampler, false);
     size_t carried =
-        at_most(allowed, CARRIED_BYTES) / wf_resampler_field_bytes(p->resampler, true);
+        at_most(allowed, desc->carried_bytes) / wf_resampler_field_bytes(p->resampler, true);
     int fewest = fewest_together(&run->job->raster),
         together = (int)at_most(group, MOST_IN_GROUP);
     int64_t overlap = overlap_of(p->resampler, desc->end_field);

@@ -14,6 +14,8 @@ typedef struct wf_picture_desc {
     int open_together; /* pictures that may be open at once */
     int64_t end_field; /* of all that the pictures give, whatever the chunk */
     bool unforeseen;   /* which pictures later fields see is not known yet: none is carried */
+    size_t carried_bytes; /* most of sums that are carried from group to group where windows
+                             overlap; beyond it pictures are read again */
 } wf_picture_desc;
 
 /* How a source's pictures are read. */

@@ -342,10 +342,13 @@ static int open_together(const wf_image_info *info) {
     return pictures < 1 ? 1 : pictures > WF_UNITS_TOGETHER ? WF_UNITS_TOGETHER : (int)pictures;
 }
 
+/* Reading a picture again costs more than sums in memory. */
+#define CARRIED_BYTES ((size_t)128 << 20)
+
 static wf_picture_desc describe(const wf_run *run) {
     const subframes *s = run->source;
     return (wf_picture_desc){s->resampler, &s->options, open_together(&s->first.info),
-                             s->end_field, false};
+                             s->end_field, false,       CARRIED_BYTES};
 }
 
 static int64_t opens(const wf_run *run, const wf_units *units, bool *needed) {

@@ -652,6 +652,8 @@ static bool same(const wf_run *run, int64_t a, int64_t b) {
 
 /* Pictures in memory at once, as codes. */
 #define MOST_BYTES ((size_t)64 << 20)
+/* Of sums that are carried: codes are smaller, and soon made light again. */
+#define CARRIED_BYTES ((size_t)48 << 20)
 
 static int open_together(const video_source *s) {
     size_t pictures = MOST_BYTES / wf_video_window_picture_bytes(s->window);
@@ -662,8 +664,10 @@ static wf_picture_desc describe(const wf_run *run) {
     video_source *s = run->source;
     int64_t looked_at = s->end_field < FIELDS_LOOKED_AT ? s->end_field : FIELDS_LOOKED_AT;
     s->maker = (wf_row_maker){wf_light_scratch(s->light), WF_LIGHT_ROWS, make_rows, free};
-    return (wf_picture_desc){s->resampler, &s->options, open_together(s), looked_at,
-                             s->arrivals != NULL};
+    return (wf_picture_desc){
+        s->resampler, &s->options,         open_together(s),
+        looked_at,    s->arrivals != NULL, CARRIED_BYTES,
+    };
 }
 
 static void tell(const wf_run *run, wf_report *report) {
