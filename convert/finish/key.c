@@ -38,6 +38,7 @@ void wf_key_put(const wf_setup *s, const float *k, size_t count, void *to) {
 }
 
 static weft_status make_neutral(const wf_setup *s, wf_outputs *o, weft_error *err) {
+    if (s->key.kind->layout != WF_YCBCR) return WEFT_OK;
     size_t width = (size_t)s->key_options.raster->width_px;
     o->neutral = malloc(width * sizeof *o->neutral);
     if (!o->neutral) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a line of the key");

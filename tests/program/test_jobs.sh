@@ -18,7 +18,7 @@ check "trace subframes" exits 0 weft trace "$scene" "${small[@]}" --samples 1 --
     -o in.####.exr
 check "trace samples" exits 0 weft trace "$scene" "${small[@]}" --samples 2 --frames 0-1 -o deep.####.exr
 check "convert samples" exits 0 weft convert deep.####.exr "${small[@]}" -o deep.y4m
-check "convert them with alpha" exits 0 weft convert deep.####.exr "${small[@]}" --alpha-out -o deep.####.png
+check "convert them with alpha" exits 0 weft convert deep.####.exr "${small[@]}" --alpha-out --key deepkey.####.exr -o deep.####.png
 echo 'background{alpha=0} camera{eye={0, 0, 9}, look_at={0, 0, 0}} add(sphere{}:material{refract=0.5}, box{min={-9, -1, 2}, max={0, 1, 3}}:material{holdout=true})' >open.lua
 check "render alpha" exits 0 weft render open.lua "${small[@]}" --samples 2 --alpha-out --key key.y4m -o open.####.png
 echo 'camera{eye={0, 0, 1}, look_at={0, 0, 0}} add(sphere{raduis=1})' >wrong.lua
