@@ -170,8 +170,8 @@ static bool is_near(double a, double b) {
 static bool may_run_at(const char *text, const char *name) {
     double said = rate_of(text), own = rate_of(name);
     int lines = system_lines(name);
-    if (!own) own = lines == 525 ? 59.94 : lines == 625 ? 50 : 0;
-    if (!said || !own || !scan_letter(text)) return true;
+    if (own == 0) own = lines == 525 ? 59.94 : lines == 625 ? 50 : 0;
+    if (said == 0 || own == 0 || !scan_letter(text)) return true;
     return is_near(said, own) || (scan_letter(name) == 'i' && is_near(2 * said, own));
 }
 

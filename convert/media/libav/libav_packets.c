@@ -26,7 +26,7 @@ static bool open_codec(counting *c) {
     const AVCodecParameters *p = c->stream->codecpar;
     const AVCodec *decoder = avcodec_find_decoder(p->codec_id);
     c->codec = avcodec_alloc_context3(decoder);
-    c->parser = av_parser_init(p->codec_id);
+    c->parser = av_parser_init((int)p->codec_id);
     if (c->parser) c->parser->flags |= PARSER_FLAG_COMPLETE_FRAMES;
     c->parsed = avcodec_alloc_context3(decoder);
     if (!c->codec || !c->parsed || avcodec_parameters_to_context(c->codec, p) < 0 ||

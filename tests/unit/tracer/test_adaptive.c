@@ -135,7 +135,7 @@ static void edges_are_found(void **state) {
                 assert_true(error < 0.0025 / 2);
                 assert_true(within >= 0.99);
                 assert_true(error < 2 * fixed);
-                assert_true(spent < samples_for(error, fixed) / 8);
+                assert_true((double)spent < samples_for(error, fixed) / 8);
             }
 }
 
