@@ -309,7 +309,8 @@ static void tell_alpha(const wf_frames *f, double pixels, wf_report *report) {
         report->fill_clipped_share = (double)f->clipped / pixels / (double)f->crew->done;
 }
 
-void wf_frames_tell(const wf_frames *f, wf_report *report) {
+void wf_frames_tell(wf_frames *f, wf_report *report) {
+    wf_aside_end(&f->writing, NULL); /* of a run that was cancelled or failed */
     double pixels = (double)f->raster->width_px * f->raster->lines;
     report->write_s = f->write_s;
     report->legal.counts = f->legal;

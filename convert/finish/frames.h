@@ -36,7 +36,7 @@ weft_status wf_frames_commit(wf_frames *frames, weft_error *err);
 
 /* Adds to the report the seconds that writing took and, where the output is codes, what r103
  * has done to those of the frames written. */
-void wf_frames_tell(const wf_frames *frames, wf_report *report);
+void wf_frames_tell(wf_frames *frames, wf_report *report);
 
 /* The next frames *first <= n < *end that are to be made, from *first on: with --resume those
  * whose files are there already are left out. False when none remain. */
