@@ -146,6 +146,11 @@ none "hot loops begin alike, and are found by WF_ISA_DISPATCH alone" \
     "$(find "${folders[@]}" -name '*_isa.c' | xargs grep -L '^#include "filters/base/isa_file.h"$'
         grep -rn -E '# *define WF_ISA\>|_v[134]\>|__builtin_cpu_' "${folders[@]}" --include='*.[ch]' |
             grep -v -E '^filters/base/isa(_file)?\.[ch]:')"
+# Files that somebody tried something with are not committed beside them.
+top='\.clang-format|\.gitignore|CMakeLists\.txt|LICENSE|README\.md|\.ci|convert|tracer|filters|color|tests|examples'
+none "the top level holds nothing but what README tells of" \
+    "$(git ls-files 2>/dev/null | cut -d/ -f1 | sort -u | grep -vxE "$top")"
+
 none "no folder has more than 40 files" \
     "$(find "${folders[@]}" tests examples -type f ! -path '*/__pycache__/*' ! -path 'examples/*/pictures/*' |
         sed 's#/[^/]*$##' | sort | uniq -c | awk '$1 > 40 {print $2, $1}')"
