@@ -6,23 +6,15 @@ not_sanitized "test_jobs.sh verifies"
 needs_libav
 needs ffmpeg
 subframes in 96
+. "$WEFT_SOURCE/tests/verify/verdicts.sh"
 
 no_cut_passes() { python3 "$WEFT_SOURCE/tests/verify/cuts.py" "$WEFT" "$@"; }
 
-# found CHECK FILE VERDICT: what verify says of this file by this check.
-found()
-{
-    weft verify --json "$2" >out 2>said
-    value "[c['verdict'] for c in d[0]['checks'] if c['check'] == '$1'] == ['$3']"
-}
-
-small=(--raster 180x122@25i,tff)
 check "MXF of weft's own" made own.mxf --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "QuickTime" made m.mov --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "Matroska" made m.mkv --codec ffv1 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "Y4M" made m.y4m "${small[@]}"
 check "MXF of libavformat's" made i.mxf --codec imx50 --raster 625i --timecode 10:00:00:00 --audio silent:4 --frames 0-47
-input=(-f lavfi -i testsrc2=s=64x48:r=25:d=0.4 -f lavfi -i sine=r=48000:d=0.4)
 quiet_ffmpeg "${input[@]}" -c:v mpeg2video -c:a pcm_s16le others.mxf
 quiet_ffmpeg "${input[@]}" -c:v mpeg2video -c:a aac last.mp4
 quiet_ffmpeg "${input[@]}" -c:v mpeg2video -c:a aac -movflags +faststart first.mp4

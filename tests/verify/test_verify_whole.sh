@@ -7,21 +7,13 @@ not_sanitized "test_jobs.sh verifies"
 needs_libav
 needs ffmpeg
 subframes in 96
+. "$WEFT_SOURCE/tests/verify/verdicts.sh"
 
-# found CHECK FILE VERDICT: what verify says of this file by this check.
-found()
-{
-    weft verify --json "$2" >out 2>said
-    value "[c['verdict'] for c in d[0]['checks'] if c['check'] == '$1'] == ['$3']"
-}
-
-small=(--raster 180x122@25i,tff)
 check "MXF" made own.mxf --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "QuickTime" made m.mov --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "Matroska" made m.mkv --codec ffv1 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 
 # Streams do not say where they end: what is left may be whole, and is never called so.
-input=(-f lavfi -i testsrc2=s=64x48:r=25:d=0.4 -f lavfi -i sine=r=48000:d=0.4)
 quiet_ffmpeg "${input[@]}" -c:v mpeg2video -c:a mp2 t.ts
 quiet_ffmpeg "${input[@]}" -c:v mpeg2video -c:a mp2 p.mpg
 check "a transport stream may go on" found whole t.ts open
