@@ -260,20 +260,23 @@ static weft_status make_edges(const wf_run *run, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: %s", s->path, why);
 }
 
+/* When the first unit is shown, after the first picture of the video, whose pictures come
+ * `rate` a second where they have no times. */
+static wf_rational first_s(const video_source *s, wf_rational rate) {
+    const wf_video_info *info = &s->info;
+    if (!s->times_s) return wf_ratio_div(wf_ratio(s->picture, s->step), rate);
+    return wf_ratio_mul(wf_ratio(info->times[s->picture] - info->times[0], 1), info->tick_s);
+}
+
 /* When the selection begins on the clock of the file, which its sound keeps to, and how fast
  * its pictures are shown, `rate` units a second. */
 static void settle_sound(wf_run *run, wf_rational rate) {
     const video_source *s = run->source;
-    const wf_video_info *info = &s->info;
     wf_rational own =
-        s->keeps_rate ? s->stated : wf_ratio_div(info->rate, wf_ratio(s->step, 1));
-    if (s->times_s) {
-        int64_t ticks = info->times[s->picture] - info->times[0];
-        run->setup.sound_s = wf_ratio_mul(wf_ratio(ticks, 1), info->tick_s);
-    } else if (wf_ratio_given(own) && own.num > 0) {
-        run->setup.sound_s = wf_ratio_div(wf_ratio(s->picture, s->step), own);
-        run->setup.speed = wf_ratio_div(rate, own);
-    }
+        s->keeps_rate ? s->stated : wf_ratio_div(s->info.rate, wf_ratio(s->step, 1));
+    if (!s->times_s && !(wf_ratio_given(own) && own.num > 0)) return;
+    run->setup.sound_s = first_s(s, own);
+    if (!s->times_s) run->setup.speed = wf_ratio_div(rate, own);
 }
 
 static double mean_rate(const video_source *s, wf_rational rate) {
@@ -294,13 +297,6 @@ static void describe_first(video_source *s) {
                                .frames = s->info.rate};
 }
 
-/* When the first unit is shown, after the first picture of the video. */
-static wf_rational first_s(const video_source *s) {
-    const wf_video_info *info = &s->info;
-    if (!s->times_s) return wf_ratio_div(wf_ratio(s->picture, s->step), s->stated);
-    return wf_ratio_mul(wf_ratio(info->times[s->picture] - info->times[0], 1), info->tick_s);
-}
-
 static void start_timecode(wf_run *run) {
     video_source *s = run->source;
     wf_image_info *first = &s->first;
@@ -308,7 +304,7 @@ static void start_timecode(wf_run *run) {
     snprintf(first->timecode, sizeof first->timecode, "%s", s->info.timecode);
     first->timecode_all = true;
     first->frames = told ? s->info.timecode_rate : s->info.rate;
-    if (s->picture) wf_advance_timecode(run->job, first, first_s(s));
+    if (s->picture) wf_advance_timecode(run->job, first, first_s(s, s->stated));
     wf_start_timecode(run->job, &run->setup, first);
     if (*run->setup.timecode)
         wf_take(&run->report->taken, "timecode", run->setup.timecode, "file");
