@@ -6,7 +6,7 @@
 void wf_draw_titles(wf_canvas *c, const wf_layout *layout) {
     const wf_plot *plot = layout->plot;
     const wf_look *look = layout->look;
-    double middle = look->left + (layout->width - look->left - look->right) / 2;
+    double middle = look->left + (layout->width - look->left - layout->right) / 2;
     if (plot->title) c->on->text(c, &look->title, look->left, look->title_y, 0, plot->title);
     if (plot->subtitle)
         c->on->text(c, &look->subtitle, look->left, look->subtitle_y, 0, plot->subtitle);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "convert/plot/parts.h"
+
 /* clang-format off */
 static const wf_look looks[] = {
     [WF_LOOK_PAGE] = {
@@ -90,7 +92,7 @@ static void choose_log_ticks(wf_scale *s, double low, double high) {
 }
 
 /* Multiples of 1, 2, 2.5 or 5 times a power of ten: at most six steps. */
-static void choose_ticks(wf_scale *s, double low, double high) {
+void wf_scale_ticks(wf_scale *s, double low, double high) {
     static const double multiples[] = {1, 2, 2.5, 5, 10};
     double span = high - low, step = pow(10, floor(log10(span / 4)));
     size_t m = 0;
@@ -108,7 +110,7 @@ static void settle_ticks(wf_scale *s, const wf_plot_axis *axis) {
     else if (axis->tick)
         for (size_t i = 0; i < axis->ticks; i++) add_tick(s, axis->tick[i]);
     else
-        (s->log ? choose_log_ticks : choose_ticks)(s, low, high);
+        (s->log ? choose_log_ticks : wf_scale_ticks)(s, low, high);
 }
 
 /* Ends that are not given are what the items reach, and a little more. */
@@ -156,6 +158,7 @@ void wf_layout_begin(const wf_plot *plot, double legend_height, wf_layout *out) 
     double title = plot->title ? look->title_top : 0;
     *out = (wf_layout){.plot = plot, .look = look};
     out->width = plot->width ? plot->width : look->width;
+    out->right = look->right + wf_bar_width(plot);
     out->axes_height = (plot->height ? plot->height : look->height) + title;
     out->height = (int)ceil(out->axes_height + legend_height);
     settle(&out->x, &plot->x, plot, 0, plot->panels, true);
@@ -169,7 +172,7 @@ void wf_axes_begin(const wf_layout *layout, size_t panel, wf_axes *out) {
     double height = (layout->axes_height - top - look->bottom - gaps) / (double)plot->panels;
     *out = (wf_axes){.layout = layout, .panel = &plot->panel[panel], .x = layout->x};
     out->box = (wf_box){look->left, top + (height + look->gap) * (double)panel,
-                        layout->width - look->left - look->right, height};
+                        layout->width - look->left - layout->right, height};
     settle(&out->y, &plot->panel[panel].y, plot, panel, panel + 1, false);
     out->x.start = out->box.x;
     out->x.end = out->box.x + out->box.width;

@@ -37,6 +37,7 @@ typedef struct wf_layout {
     const wf_plot *plot;
     const wf_look *look;
     int width, height;  /* of the picture */
+    double right;       /* what is free at the right of the axes */
     double axes_height; /* the height that the panels and what is above and between them take */
     wf_scale x;
 } wf_layout;
@@ -60,6 +61,9 @@ double wf_scale_at(const wf_scale *scale, double value);
 
 /* The value, or the end of the scale that it lies beyond. */
 double wf_scale_within(const wf_scale *scale, double value);
+
+/* Adds ticks at round numbers, linear, at most six steps from low to high, which is larger. */
+void wf_scale_ticks(wf_scale *scale, double low, double high);
 
 /* A number at the grid: with so many digits, or with up to three that count if digits is below
  * 0. */

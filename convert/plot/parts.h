@@ -17,6 +17,11 @@ void wf_draw_items(wf_canvas *c, const wf_axes *axes);
  * `legend`, whose width is 0 if there is none within the axes. */
 void wf_draw_labels(wf_canvas *c, const wf_axes *axes, const wf_box *legend);
 
+/* The bar that tells the colors of the panel's first map that has text; none: nothing is drawn.
+ * Its width, with the space before it, lies at the right of the axes. */
+void wf_draw_bar(wf_canvas *c, const wf_axes *axes);
+double wf_bar_width(const wf_plot *plot);
+
 /* The height that a legend below the axes takes; 0 if there is none. */
 double wf_legend_height(const wf_plot *plot);
 

@@ -14,6 +14,7 @@ static void draw(wf_canvas *c, const wf_layout *layout) {
         wf_axes_begin(layout, i, &axes);
         wf_draw_axes(c, &axes);
         wf_draw_items(c, &axes);
+        wf_draw_bar(c, &axes);
     }
     for (size_t i = 0; i < plot->panels; i++) {
         wf_axes_begin(layout, i, &axes);

@@ -35,7 +35,8 @@ typedef enum wf_plot_kind {
     WF_ITEM_RULE,   /* a line across the axes at x[0] or y[0], the other being NULL; text */
     WF_ITEM_BAND,   /* a tint from x[0] to x[1], with text at its top */
     WF_ITEM_BOXES,  /* rectangles; box i reaches from point 2 i to point 2 i + 1 */
-    WF_ITEM_MAP,    /* value as colors, from point 0 (the upper left corner) to point 1 */
+    WF_ITEM_MAP,    /* value as colors, from point 0 (the upper left corner) to point 1; text
+                     * says what they are, at a bar beside the axes */
     WF_ITEM_RING,   /* a light circle about point 0, to point out a place of a map; text */
 } wf_plot_kind;
 

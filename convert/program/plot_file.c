@@ -388,7 +388,7 @@ static const struct {
     [WF_ITEM_RULE] = {"rule", "", "x y text"},
     [WF_ITEM_BAND] = {"band", "across", "text"},
     [WF_ITEM_BOXES] = {"boxes", "boxes", "series"},
-    [WF_ITEM_MAP] = {"map", "box values", "range"},
+    [WF_ITEM_MAP] = {"map", "box values", "range text"},
     [WF_ITEM_RING] = {"ring", "at", "text radius below dashed"},
 };
 

@@ -1,4 +1,4 @@
-"""Where the items of test_plot.sh's plots are: plot_places.py FOLDER, with all.svg, all.png, log.svg."""
+"""Where the items of test_plot.sh's plots are: plot_places.py FOLDER, with all.svg, all.png, bar.svg, log.svg."""
 import base64
 import math
 import struct
@@ -93,6 +93,23 @@ def look_at_svg(root):
         check("ticks and title", [1], [0])
 
 
+def look_at_bar(root):
+    """A map that tells its colors: a bar of them beside axes that are narrower by 82."""
+    right = RIGHT - 82
+    map_image, bar = list(root.iter(SVG + "image"))
+    check("the map leaves room", box(map_image), [LEFT, TOP, right - LEFT, FLOOR - TOP])
+    check("the bar", box(bar), [right + 14, TOP, 12, FLOOR - TOP])
+    pixels = rows(base64.b64decode(bar.get("href").split(",")[1]))
+    check("it is bright above", [sum(pixels[0][0]) > 3 * 220, sum(pixels[-1][0]) < 30], [True, True])
+    words = {t.text: float(t.get("y")) for t in root.iter(SVG + "text")
+             if t.get("y")}
+    check("its numbers stand at their values",
+          [words[f"\N{MINUS SIGN}{n}"] if n else words["0"] for n in (40, 30, 20, 10, 0)],
+          [FLOOR + (TOP - FLOOR) * (45 - n) / 45 + 4 for n in (40, 30, 20, 10, 0)])
+    if "dB below white" not in [t.text for t in root.iter(SVG + "text")]:
+        check("what they are", [1], [0])
+
+
 def look_at_log(root):
     top = TOP + 26  # below the title
     found = circles(root)
@@ -116,6 +133,7 @@ def look_at_png(pixels):
 
 folder = sys.argv[1] + "/"
 look_at_svg(tree.parse(folder + "all.svg").getroot())
+look_at_bar(tree.parse(folder + "bar.svg").getroot())
 look_at_log(tree.parse(folder + "log.svg").getroot())
 with open(folder + "all.png", "rb") as file:
     look_at_png(rows(file.read()))

@@ -26,6 +26,11 @@ cat >log.json <<'END'
 {"title": "Decades", "x": {"log": true, "low": 1, "high": 1000}, "y": {"log": true},
  "items": [{"kind": "points", "points": [[10, 1], [100, 100]], "series": 1}]}
 END
+cat >bar.json <<'END'
+{"x": {"low": 0, "high": 1, "ticks": []}, "y": {"low": 0, "high": 1, "ticks": []},
+ "items": [{"kind": "map", "box": [0, 1, 1, 0], "values": [[-45, 0]], "range": [-45, 0],
+            "text": "dB below white"}]}
+END
 check "an SVG" exits 0 weft plot all.json -o all.svg
 check "nothing is said" test ! -s said
 check "an SVG on standard output" exits 0 weft plot - -o - <all.json
@@ -33,6 +38,7 @@ check "it is the same" cmp -s out all.svg
 check "a PNG" exits 0 weft plot all.json -o all.png
 check "it replaces one that is there" exits 0 weft plot all.json -o all.png
 check "a logarithmic one" exits 0 weft plot log.json -o log.svg
+check "a map with a bar of its colors" exits 0 weft plot bar.json -o bar.svg
 check "places are right" python3 "$WEFT_SOURCE/tests/program/plot_places.py" .
 
 # ---- What is refused ----
