@@ -137,7 +137,8 @@ static const wf_delivery_form h264_forms[] = {
 #define MOV .muxer = "mov", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
 #define MXF .muxer = "mxf", .sound_bytes = BITS(2) | BITS(3)
 #define MKV .muxer = "matroska", .sound_bytes = BITS(2) | BITS(3) | BITS(4)
-#define MP4 .muxer = "mp4"
+/* Samples as they are go into MP4 by ISO/IEC 23003-5 only, which hardly any player reads. */
+#define MP4 .muxer = "mp4", .sound_bytes = BITS(2) | BITS(3) | BITS(4), .sound_encoder = "aac"
 
 static const wf_delivery rows[] = {
     {KIND("v210", "mov", "uncompressed, 10 bits", BITS(10), 10, true), MOV, V210},

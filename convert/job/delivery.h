@@ -40,13 +40,15 @@ typedef struct wf_delivery {
     const char *encoder_options; /* "key=value:.."; NULL: none */
     const wf_delivery_form *forms; /* the first that fits is taken */
     size_t form_count;
-    int pictures_a_group;  /* of pictures, at 25 frames a second; 0: every one is whole */
-    unsigned sound_bytes;  /* 1u << bytes for each size of a sample that it takes */
-    bool one_audio_stream; /* of all channels, 4 or 8 of them */
-    bool constant;         /* bit rate */
-    int threads;           /* where another number makes other bytes; 0: any */
-    bool full_range;       /* is told to the reader, and so can be had */
-    unsigned alpha_bits;   /* 1u << bits for each depth that has alpha; 0: none */
+    int pictures_a_group;      /* of pictures, at 25 frames a second; 0: every one is whole */
+    unsigned sound_bytes;      /* 1u << bytes for each size of a sample that it takes */
+    const char *sound_encoder; /* libavcodec's, in tracks of two channels, which loses
+                                  something; NULL: samples are written as they are */
+    bool one_audio_stream;     /* of all channels, 4 or 8 of them */
+    bool constant;             /* bit rate */
+    int threads;               /* where another number makes other bytes; 0: any */
+    bool full_range;           /* is told to the reader, and so can be had */
+    unsigned alpha_bits;       /* 1u << bits for each depth that has alpha; 0: none */
 } wf_delivery;
 
 /* By index, the default of each container first; NULL past the end. */

@@ -185,9 +185,8 @@ static const wf_option_row rows[] = {
         "wrong name lists them.",
         set_codec, TEXT(codec)),
     ROW(files, VIDEO, "audio", "none|copy|FILE[:OFFSET]|silent:N|tone:N", "none",
-        "Sound in .mov, .mxf and .mkv, at 48 kHz: the input video's, that of a file (from so "
-        "many "
-        "seconds on), N tracks of silence or of 1 kHz at -18 dBFS.",
+        "Sound in .mov, .mxf, .mkv and, as AAC, .mp4, at 48 kHz: the input video's, that of a "
+        "file (from so many seconds on), N tracks of silence or of 1 kHz at -18 dBFS.",
         set_audio, TEXT(audio), INITIAL),
     ROW(files, VIDEO, "audio-tracks", "N", "one a channel",
         "How many tracks of sound are written: channels beyond them are left out, tracks "
@@ -195,7 +194,8 @@ static const wf_option_row rows[] = {
         "the channels are silent.",
         set_whole, AT(audio_tracks), FROM(1, WF_SOUND_TRACKS, ", whole")),
     ROW(files, VIDEO, "audio-bits", "16|24|32", "24",
-        "Bits of a sample of sound; 32 in .mov and .mkv.", set_bits, AT(audio_bits), INITIAL),
+        "Bits of a sample of sound; 32 in .mov and .mkv; AAC has none.", set_bits,
+        AT(audio_bits), INITIAL),
     ROW(files, VIDEO, "fields", "woven|separate", "woven",
         "Image sequences: both fields in one file, or each in a file of half the height, two "
         "numbers a frame in order of time.",

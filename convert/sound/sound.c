@@ -18,6 +18,7 @@ struct wf_sound {
     wf_audio audio;
     char *path; /* of the file it comes from; NULL: it is made */
     int channels, tracks, bits;
+    const char *encoder; /* what is made of the tracks; NULL: samples as they are */
     const wf_sound_reader *reader;
     void *state; /* the reader's */
     wf_sound_info info;
@@ -98,10 +99,16 @@ static weft_status open_reader(wf_sound *s, weft_error *err) {
 static void settle_tracks(wf_sound *s, const wf_delivery *delivery) {
     bool made = !s->reader;
     if (made) s->channels = s->audio.tracks;
-    s->bits = s->job->audio_bits;
+    s->encoder = delivery->sound_encoder;
+    s->bits = s->encoder ? 32 : s->job->audio_bits;
     s->tracks = (int)s->job->audio_tracks;
     if (!s->tracks)
         s->tracks = made ? s->channels : wf_delivery_sound_tracks(delivery, s->channels);
+}
+
+/* For people: encoders are known by words in capitals. */
+static const char *encoding_of(const wf_sound *s) {
+    return !strcmp(s->encoder, "aac") ? "AAC" : s->encoder;
 }
 
 static void tell_tracks(const wf_sound *s) {
@@ -118,6 +125,11 @@ static void tell_tracks(const wf_sound *s) {
 }
 
 static void tell_samples(const wf_sound *s) {
+    if (s->reader && s->encoder)
+        wf_job_warn(s->job,
+                    "%s: its sound is written as %s, which is lossy; .mov and .mkv hold its "
+                    "samples as they are",
+                    s->path, encoding_of(s));
     if (s->info.bits > s->bits)
         wf_job_warn(s->job, "%s: its sound of %d bits is rounded to %d%s", s->path,
                     s->info.bits, s->bits,
@@ -170,8 +182,12 @@ const char *wf_sound_text(const wf_sound *s, char text[WF_SOUND_TEXT]) {
         snprintf(from, sizeof from, "%d Hz at %d dBFS", WF_TONE_HZ, WF_TONE_DBFS);
     else
         snprintf(from, sizeof from, "%.24s: %s", name_of(s), channels);
-    snprintf(text, WF_SOUND_TEXT, "%s; %d track%s of %d bits", from, s->tracks,
-             s->tracks > 1 ? "s" : "", s->bits);
+    int used = snprintf(text, WF_SOUND_TEXT, "%s; %d track%s of ", from, s->tracks,
+                        s->tracks > 1 ? "s" : "");
+    if (s->encoder)
+        snprintf(text + used, WF_SOUND_TEXT - (size_t)used, "%s", encoding_of(s));
+    else
+        snprintf(text + used, WF_SOUND_TEXT - (size_t)used, "%d bits", s->bits);
     return text;
 }
 

@@ -7,6 +7,8 @@ probe FILE TRACKS CHANNELS BITS SECONDS         ffprobe says so of every track
 tone FILE TRACKS BITS SAMPLES START             1 kHz whose peak is 18 dB below full scale, from sample START
 gap FILE WAV                                    the first track is WAV's, but for a quarter of a second of silence
 sine FILE HZ                                    the first track is a sine that begins at time 0
+lossy FILE STREAMS CHANNELS SECONDS HZ          so many streams of AAC, the last of so many channels, that ffprobe
+                                                says last so long; their first track is about that sine
 """
 import json, math, random, struct, subprocess, sys
 
@@ -118,8 +120,24 @@ def sine(name, hz):
         sys.exit("%s: it is off by %.2g of full scale" % (name, worst))
 
 
+def lossy(name, count, channels, seconds, hz):
+    """A sample sooner or later is wrong by 2.5 % of full scale."""
+    found, seconds, hz = streams(name), eval(seconds), float(hz)
+    if len(found) != int(count) or found[-1]["channels"] != int(channels):
+        sys.exit("%s: %d streams of sound, the last of %d channels" % (name, len(found), found[-1]["channels"]))
+    for s in found:
+        about = (s["codec_name"], s["start_pts"], s["sample_rate"], s["disposition"]["default"])
+        if about != ("aac", 0, "48000", 1) or abs(float(s["duration"]) - seconds) > .5 / 48000 + 1e-6:
+            sys.exit("%s: stream %d: %r, and %s s long, not %.6f" % (name, s["index"], about, s["duration"], seconds))
+    track = read_tracks(name)[0]
+    off = [track[n] / 2**31 - .5 * math.sin(2 * math.pi * hz * n / 48000) for n in range(2000, int(seconds * 48000) - 2000)]
+    rms = math.sqrt(sum(x * x for x in off) / len(off))
+    if rms > .005:
+        sys.exit("%s: it is off by %.2g of full scale" % (name, rms))
+
+
 verb, rest = sys.argv[1], sys.argv[2:]
 if verb == "wav":
     write_wav(rest[0], *(int(x) for x in rest[1:]))
 else:
-    {"tracks": same_tracks, "probe": probe, "tone": tone, "sine": sine, "gap": gap}[verb](*rest)
+    {"tracks": same_tracks, "probe": probe, "tone": tone, "sine": sine, "gap": gap, "lossy": lossy}[verb](*rest)

@@ -197,6 +197,15 @@ static int name_packages(AVDictionary **about) {
     return code < 0 ? code : av_dict_set(about, "file_package_name", WF_MXF_PACKAGE_NAME, 0);
 }
 
+/* Encoded sound begins with samples that an edit list leaves out, and its length is counted in
+ * ticks of the movie: those of frames and of samples, as far as a number holds them. */
+static int time_movie(const wf_writing *w, AVDictionary **options) {
+    int64_t rate = w->raster.frame_rate.num, samples = WF_SOUND_RATE;
+    int64_t ticks = rate / av_gcd(rate, samples) * samples;
+    if (!w->options.sound.tracks || !w->delivery->sound_encoder) return 0;
+    return av_dict_set_int(options, "movie_timescale", ticks > INT32_MAX ? samples : ticks, 0);
+}
+
 static weft_status write_header(wf_writing *w, weft_error *err) {
     AVDictionary **about = &w->format->metadata, *options = NULL;
     char name[64];
@@ -208,6 +217,7 @@ static weft_status write_header(wf_writing *w, weft_error *err) {
     if (code >= 0 && !strcmp(w->delivery->muxer, "matroska"))
         code = av_dict_set(about, "title", WF_MKV_TITLE, 0);
     if (code >= 0 && !strncmp(w->delivery->muxer, "mxf", 3)) code = name_packages(about);
+    if (code >= 0) code = time_movie(w, &options);
     if (code >= 0) code = avformat_write_header(w->format, &options);
     /* The muxer of QuickTime writes this at the end if it is not set after the header. */
     if (code >= 0) code = av_dict_set(about, "encoder", name, 0);
@@ -381,6 +391,7 @@ static weft_status complete(wf_writing *w, weft_error *err) {
 static weft_status commit(void *state, weft_error *err) {
     wf_writing *w = state;
     weft_status status = encode(w, NULL, err);
+    if (!status) status = wf_written_sound_finish(w, err);
     int code = status ? 0 : av_write_trailer(w->format);
     if (!status && code >= 0) {
         avio_flush(w->format->pb);

@@ -3,6 +3,7 @@
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/audio_fifo.h>
 #include <xxhash.h>
 
 #include "convert/base/outfile.h"
@@ -12,14 +13,24 @@
 
 /* A delivery that is being written, and what its picture and its sound both do. */
 
-/* PCM beside a video. */
+/* A stream of sound, of the tracks from `first` on. */
+typedef struct wf_written_stream {
+    AVCodecContext *codec;
+    AVAudioFifo
+        *waiting; /* samples that do not fill a frame of the codec; NULL: it takes any */
+    int index;    /* in the file */
+    int first, channels;
+    int64_t sent; /* samples that the encoder was given */
+} wf_written_stream;
+
+/* Sound beside a video. */
 typedef struct wf_written_sound {
-    AVCodecContext *codec; /* NULL: none */
+    wf_written_stream stream[WF_SOUND_TRACKS];
     AVFrame *frame;
-    int streams, first_stream; /* of the file: one a track, or one for all */
-    int64_t first_frame;       /* of the run, from which samples are shared out to frames */
-    int64_t samples;           /* of a track, written so far */
-    int32_t *next;             /* those of a frame, [][tracks] */
+    int streams;         /* one a track, a pair of tracks, or for all; 0: no sound */
+    int64_t first_frame; /* of the run, from which samples are shared out to frames */
+    int64_t samples;     /* of a track, written so far */
+    int32_t *next;       /* those of a frame, [][tracks] */
 } wf_written_sound;
 
 typedef struct wf_writing {
