@@ -33,10 +33,20 @@ bool wf_klv_is_fill(const uint8_t key[WF_KLV_KEY_BYTES]);
 /* Offset of the value of an item of a set of `bytes` bytes; 0, *length 0: it has none. */
 size_t wf_klv_item(const uint8_t *set, size_t bytes, unsigned tag, size_t *length);
 
+/* Values of FrameLayout: fields apart have their own heights stated, mixed ones are woven into
+ * a picture whose height is stated. */
+typedef enum wf_mxf_layout {
+    WF_MXF_FULL_FRAME,
+    WF_MXF_SEPARATE_FIELDS,
+    WF_MXF_ONE_FIELD,
+    WF_MXF_MIXED_FIELDS,
+    WF_MXF_SEGMENTED_FRAME
+} wf_mxf_layout;
+
 /* Tags of ST 377-1. */
 enum {
     WF_MXF_STORED_LINES = 0x3202,
-    WF_MXF_FRAME_LAYOUT = 0x320c, /* 0 full frame, 1 separate fields, 3 mixed, 4 segmented */
+    WF_MXF_FRAME_LAYOUT = 0x320c, /* wf_mxf_layout */
     WF_MXF_LINE_MAP = 0x320d,     /* batch of two: count, size, values */
     WF_MXF_ASPECT = 0x320e,       /* rational, of the picture */
     WF_MXF_DOMINANCE = 0x3212,    /* the field that is first in time: 1 or 2 */

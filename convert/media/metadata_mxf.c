@@ -67,6 +67,16 @@ static size_t read_value(FILE *file, const wf_klv *k, uint8_t value[SET_MOST]) {
     return fread(value, 1, (size_t)bytes, file) == (size_t)bytes ? (size_t)bytes : 0;
 }
 
+/* The lines of a picture alternate, and a field has about half of the system's lines: where the
+ * sum of the two first lines is odd the first one of the picture belongs to field 1. */
+void wf_metadata_mxf_scan(wf_metadata *m) {
+    bool mapped = m->has_line_map && m->line_map[0] > 0 && m->line_map[1] > 0;
+    if (m->scan_known || m->frame_layout != WF_MXF_MIXED_FIELDS || !mapped) return;
+    bool field_1_above = (m->line_map[0] ^ m->line_map[1]) & 1;
+    m->scan_known = m->interlaced = true;
+    m->top_first = field_1_above == (m->dominance != 2);
+}
+
 void wf_metadata_mxf(FILE *file, wf_metadata *metadata) {
     wf_klv k = {{0}, 0, 0};
     for (int n = 0; n < SETS_MOST; n++) {

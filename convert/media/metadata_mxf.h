@@ -9,4 +9,8 @@
  * formed ends the reading of it; nothing is read beyond the file. */
 void wf_metadata_mxf(FILE *file, wf_metadata *metadata);
 
+/* Takes the order of mixed fields, both in one picture, from the lines that they begin with and
+ * the field that is first, where nothing else has told the scan: libavformat passes it over. */
+void wf_metadata_mxf_scan(wf_metadata *metadata);
+
 #endif

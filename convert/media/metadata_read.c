@@ -29,5 +29,6 @@ weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error
     if (!strcmp(metadata->container, "mov")) wf_metadata_mov(file, metadata);
     if (!strcmp(metadata->container, "mxf")) wf_metadata_mxf(file, metadata);
     fclose(file);
+    wf_metadata_mxf_scan(metadata);
     return WEFT_OK;
 }

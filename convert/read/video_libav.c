@@ -4,6 +4,7 @@
 
 #include "convert/base/module.h"
 #include "convert/media/libav/libav.h"
+#include "convert/media/metadata_mxf.h"
 #include "convert/media/structure/structure.h"
 #include "convert/read/video_kinds.h"
 
@@ -26,6 +27,19 @@ static weft_status tell_cut_off(const wf_video *v, weft_status status, weft_erro
                    v->path, structure.missing);
 }
 
+/* libav has no order of the fields that MXF calls mixed. */
+static void label_mixed_fields(const wf_video *v, wf_video_label *label) {
+    wf_metadata metadata = {.frame_layout = -1, .dominance = -1, .siting = -1};
+    if (label->scan_known || v->pipe || strncmp(v->info.format, "mxf ", 4)) return;
+    FILE *file = fopen(v->path, "rbe");
+    if (!file) return;
+    wf_metadata_mxf(file, &metadata);
+    fclose(file);
+    wf_metadata_mxf_scan(&metadata);
+    label->scan_known = label->interlaced = metadata.scan_known;
+    label->top_first = metadata.top_first;
+}
+
 /* The module's kind replaces this one, and has the video from here on. */
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
     void *symbol;
@@ -43,6 +57,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     memcpy(&kind, &symbol, sizeof kind);
     v->kind = kind();
     status = v->kind->open(v, label, err);
+    if (!status) label_mixed_fields(v, label);
     return status == WEFT_FAILED ? tell_cut_off(v, status, err) : status;
 }
 

@@ -1,5 +1,6 @@
 /* Describes uncompressed pictures in MXF: labels and items, as data. */
 #include "convert/job/colors.h"
+#include "convert/media/klv.h"
 #include "convert/write/mxf_parts.h"
 
 #define COUNT(rows) (sizeof(rows) / sizeof *(rows))
@@ -133,15 +134,13 @@ static unsigned signal_standard(const wf_raster *r) {
     return r->width_px == 1280 && r->lines == 720 ? 5 : 0;
 }
 
-/* Values of FrameLayout. By the letter of ST 377-1 woven fields are "mixed fields", which
- * MediaInfo shows as progressive and ffmpeg as unknown. "Separate fields", which ffmpeg
- * writes for them too, is shown as interlaced and in the right order, and no reader takes it
- * to mean that the lines are sorted. Heights are then those of a field. Segmented frames are
- * stored whole and labeled progressive, since "segmented frame" is shown as interlaced. */
-enum { FULL_FRAME = 0, SEPARATE_FIELDS = 1 };
-
-static unsigned frame_layout(const wf_raster *r) {
-    return r->scan == WF_INTERLACED ? SEPARATE_FIELDS : FULL_FRAME;
+/* Woven fields are "mixed fields", with the heights of the picture, as ST 377-1 has it and
+ * bmx's readers ask for it; ffmpeg and MediaInfo take the heights as they are. "Separate
+ * fields", which ffmpeg writes for woven ones, have the heights of a field, and bmx does not
+ * know such files as uncompressed. Segmented frames are stored whole and labeled progressive,
+ * since "segmented frame" is shown as interlaced. */
+static wf_mxf_layout frame_layout(const wf_raster *r) {
+    return r->scan == WF_INTERLACED ? WF_MXF_MIXED_FIELDS : WF_MXF_FULL_FRAME;
 }
 
 static void put_geometry(wf_bytes *b, const wf_raster *r) {
@@ -149,10 +148,10 @@ static void put_geometry(wf_bytes *b, const wf_raster *r) {
                           widths[] = {0x3203, 0x3205, 0x3209},
                           offsets[] = {0x3206, 0x3207, 0x320a, 0x320b};
     int map[2];
-    unsigned layout = frame_layout(r);
+    wf_mxf_layout layout = frame_layout(r);
     line_map(r, map);
     for (size_t i = 0; i < COUNT(heights); i++) {
-        wf_item_number(b, heights[i], 4, (uint64_t)(layout ? r->lines / 2 : r->lines));
+        wf_item_number(b, heights[i], 4, (uint64_t)r->lines);
         wf_item_number(b, widths[i], 4, (uint64_t)r->width_px);
     }
     for (size_t i = 0; i < COUNT(offsets); i++) wf_item_number(b, offsets[i], 4, 0);
@@ -160,7 +159,8 @@ static void put_geometry(wf_bytes *b, const wf_raster *r) {
     wf_item_array(b, 0x320d, 2, 4);
     for (int i = 0; i < 2; i++) wf_bytes_number(b, 4, (uint64_t)map[i]);
     wf_item_number(b, 0x320c, 1, layout);
-    if (layout) wf_item_number(b, 0x3212, 1, 1); /* field 1, whichever it is, comes first */
+    if (layout == WF_MXF_MIXED_FIELDS)
+        wf_item_number(b, 0x3212, 1, 1); /* field 1, whichever it is, comes first */
 }
 
 void wf_mxf_describe_picture(wf_bytes *b, const wf_mxf_options *o) {

@@ -11,10 +11,20 @@ subframes in 96
 has mediainfo && mediainfo=yes
 ffmpeg -hide_banner -encoders 2>/dev/null | grep -q libx264 && x264=yes
 
+# say_mixed_order FILE ORDER: of mixed fields ffprobe has none, and MediaInfo says which beside "progressive".
+say_mixed_order()
+{
+    same "$(stream "$1" stream=field_order)" unknown || return 1
+    local first=TFF
+    [ "$2" = top ] || first=BFF
+    [ -z "${mediainfo:-}" ] || same "$(mediainfo --Inform='Video;%ScanOrder%' "$1")" $first
+}
+
 # say_order FILE ORDER: ffprobe's and MediaInfo's words for it.
 say_order()
 {
     local word
+    case $codec:$1 in v210:*.mxf | uyvy:*.mxf) say_mixed_order "$@"; return ;; esac
     word=$(stream "$1" stream=field_order)
     case "$2:${word%%,*}" in
     top:tt | top:tb | bottom:bb | bottom:bt) ;;

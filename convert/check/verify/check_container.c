@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "convert/media/container_mov.h"
+#include "convert/media/klv.h"
 
 wf_verdict wf_check_fiel(const wf_subject *s, wf_finding *f) {
     char is[32] = "none", should[32];
@@ -87,9 +88,19 @@ wf_verdict wf_check_layout(const wf_subject *s, wf_finding *f) {
     int layout = s->metadata.frame_layout;
     const char *is = layout >= 0 && layout < 5 ? names[layout] : "none";
     if (s->raster.scan == WF_INTERLACED)
-        return wf_say(f, layout == 1 || layout == 3, is, "separate or mixed fields");
-    bool segmented = s->raster.scan == WF_SEGMENTED && layout == 4;
-    return wf_say(f, layout == 0 || segmented, is, "full frame");
+        return wf_say(f, layout == WF_MXF_SEPARATE_FIELDS || layout == WF_MXF_MIXED_FIELDS, is,
+                      "separate or mixed fields");
+    bool segmented = s->raster.scan == WF_SEGMENTED && layout == WF_MXF_SEGMENTED_FRAME;
+    return wf_say(f, layout == WF_MXF_FULL_FRAME || segmented, is, "full frame");
+}
+
+/* bmx takes only mixed fields for uncompressed, by its table of these. */
+wf_verdict wf_check_bmx(const wf_subject *s, wf_finding *f) {
+    bool mixed = s->metadata.frame_layout == WF_MXF_MIXED_FIELDS;
+    return wf_open_question(f, mixed
+                                   ? "mixed fields, as it asks for; not run with bmx"
+                                   : "not mixed fields, which alone it takes for uncompressed; "
+                                     "not run with bmx");
 }
 
 /* OP-Atom (SMPTE ST 390) has one track a file, which no profile here asks for. */

@@ -27,6 +27,7 @@ enum {
     CODEC = 512,     /* it is the profile's */
     IDENTITY = 1024, /* its container names its material */
     TRACKS = 2048,   /* it says which of its tracks of sound are heard */
+    RAW = 4096,      /* its pictures are uncompressed */
 };
 
 /* Whether every file is put to a check, or only where the profile has a text, a number or a
@@ -79,6 +80,7 @@ static const struct check {
     {"pattern",    wf_check_pattern,    MXF, ALL, "SMPTE ST 378"},
     {"layout",     wf_check_layout,     MXF | RASTER, ALL, "SMPTE ST 377-1, for %s"},
     {"line map",   wf_check_line_map,   MXF | RASTER, ALL, "SMPTE ST 377-1, for %s"},
+    {"bmx",        wf_check_bmx,        MXF | FIELDS | RAW, ALL, "bmx's source, which was not run"},
     {"dominance",  wf_check_dominance,  MXF | FIELDS, ALL, "SMPTE ST 377-1, for %s"},
     {"siting",     wf_check_siting,     MXF, ALL, "Rec. ITU-R BT.601 and BT.709"},
     {"timecode",   wf_check_timecode,   CONTAINER | RASTER, ALL, "SMPTE ST 12-1, for %s"},
@@ -117,6 +119,7 @@ static unsigned nature_of(const wf_subject *s) {
            (s->contained && s->metadata.sound_streams ? SOUND : 0) |
            (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0) |
            (of_profile ? CODEC : 0) | (s->structure.sound_tracks ? TRACKS : 0) |
+           (wf_in_words("v210 rawvideo", s->metadata.codec) ? RAW : 0) |
            (mxf || !strcmp(s->metadata.container, "matroska") ? IDENTITY : 0);
 }
 

@@ -23,7 +23,7 @@ make()
 }
 
 # walked EXPRESSION FILE: out.mxf is well formed, this is true of it, and its pictures are FILE's.
-walked() { "$python3" "$WEFT_SOURCE/tests/program/mxf_check.py" out.mxf "$@" >out 2>said || { tail -n 1 said; cat out; return 1; }; }
+walked() { "$python3" "$WEFT_SOURCE/tests/mxf/mxf_check.py" out.mxf "$@" >out 2>said || { tail -n 1 said; cat out; return 1; }; }
 
 # probe KEYS VALUES: what ffprobe says of the picture.
 probe()

@@ -3,7 +3,7 @@
 . "$WEFT_SOURCE/tests/program/script.sh"
 not_sanitized "test_mxf.c and test_jobs.sh write them"
 needs python3
-. "$WEFT_SOURCE/tests/program/rawmxf.sh"
+. "$WEFT_SOURCE/tests/mxf/rawmxf.sh"
 
 # ---- Standards and colors ----
 
@@ -79,7 +79,7 @@ where = {"index": d.rfind(bytes.fromhex("3f050004")) + 7, "footer": len(d) - 12,
 d[where] ^= 1
 open("damaged.mxf", "wb").write(d)
 END
-    ! "$python3" "$WEFT_SOURCE/tests/program/mxf_check.py" damaged.mxf >out 2>said
+    ! "$python3" "$WEFT_SOURCE/tests/mxf/mxf_check.py" damaged.mxf >out 2>said
 }
 for part in index footer reference primer; do check "damage to the $part is seen" damaged $part; done
 
