@@ -70,6 +70,7 @@ filters/aperture    : filters/base
 filters/raster      : filters/base filters/aperture
 filters/resample    : filters/base filters/aperture filters/raster
 filters/gather      : filters/base filters/aperture filters/raster
+filters/seen        : filters/base
 color/line          : filters/base
 color/space         : filters/base color/line
 color/space/ocio    : color/line color/space

@@ -5,6 +5,7 @@
 #include "filters/base/half.h"
 #include "filters/gather/samples_inside.h"
 #include "filters/resample/rows.h"
+#include "filters/seen/seen.h"
 #include "tests/unit/support/levels.h"
 
 /* ---- Rows ---- */
@@ -276,9 +277,64 @@ static void gather(level_run *r) {
 
 static const level_row gathering[] = {{"gather.add", gather, true, 1e-13}};
 
+/* ---- What is seen ---- */
+
+static void down(level_run *r) {
+    enum { MOST_ROWS = 7 };
+    size_t taps = 1 + level_draw(r) % MOST_ROWS;
+    const float *row[MOST_ROWS];
+    float *weight = level_floats(r, taps), *out = level_floats(r, r->count);
+    for (size_t k = 0; k < taps; k++) row[k] = level_floats(r, r->count);
+    if (!r->plain) wf_seen_ops_at(r->level)->down(out, row, weight, taps, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        out[i] = 0;
+        for (size_t k = 0; k < taps; k++) out[i] += weight[k] * row[k][i];
+    }
+    level_keep_floats(r, out, r->count);
+}
+
+static void across(level_run *r) {
+    size_t reach = level_draw(r) % 6;
+    float *weight = level_floats(r, reach + 1), *out = level_floats(r, r->count);
+    float *in = level_floats(r, r->count + 2 * reach);
+    in += reach;
+    if (!r->plain) wf_seen_ops_at(r->level)->across(out, in, weight, reach, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        out[i] = weight[0] * in[i];
+        for (size_t k = 1; k <= reach; k++) out[i] += weight[k] * (*(in + i - k) + in[i + k]);
+    }
+    level_keep_floats(r, out, r->count);
+}
+
+/* Light over all octaves of the knots and beyond them. */
+static void add_band(level_run *r) {
+    static wf_eye eye;
+    int band = (int)(level_draw(r) % WF_EYE_BANDS);
+    float white = (float)level_uniform(r, 1, 300), *sum = level_floats(r, r->count);
+    float *part = level_floats(r, r->count), *local = level_floats(r, r->count);
+    for (int k = 0; k < WF_EYE_KNOTS; k++) eye.weight[k][band] = (float)level_uniform(r, 0, 2);
+    for (size_t i = 0; i < r->count; i++) local[i] *= (float)exp2(level_uniform(r, -20, 12));
+    if (!r->plain)
+        wf_seen_ops_at(r->level)->add_band(sum, part, local, &eye, band, white, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        double low = 0x1p-7, cd_m2 = fmin(fmax((double)(white * local[i]), low), 16383);
+        int octave = (int)floor(log2(cd_m2));
+        double at = 4 * (octave - WF_EYE_LOW) + 4 * (cd_m2 / exp2(octave) - 1);
+        int knot = (int)at;
+        double a = (double)eye.weight[knot][band], b = (double)eye.weight[knot + 1][band];
+        sum[i] += (float)((a + (at - knot) * (b - a)) * (double)part[i]);
+    }
+    level_keep_floats(r, sum, r->count);
+}
+
+static const level_row seeing[] = {{"seen.down", down, true, 0},
+                                   {"seen.across", across, true, 0},
+                                   {"seen.add_band", add_band, true, 1e-6}};
+
 const level_table level_filters[] = {
     LEVEL_TABLE("filters/resample/rows_isa.c", wf_row_ops, rows),
     LEVEL_TABLE("filters/aperture/profile_isa.c", wf_profile_ops, profiles),
     LEVEL_TABLE("filters/gather/samples_isa.c", wf_gather_ops, gathering),
+    LEVEL_TABLE("filters/seen/seen_isa.c", wf_seen_ops, seeing),
     {.file = NULL},
 };
