@@ -16,8 +16,9 @@ typedef struct wf_sincos {
 typedef struct wf_packet_ops {
     /* Rays through an affine map. */
     void (*place)(const wf_affine *map, const wf_rays *from, wf_rays *to);
-    /* One of the rays, in as many places as loops run over; to->count is 1. */
-    void (*place_one)(const wf_affine *map, const wf_rays *from, int ray, wf_rays *to);
+    /* Some of the rays, one or more, each through a map of its own. */
+    void (*place_each)(const wf_affine *const *map, const wf_rays *from, const int *ray,
+                       int count, wf_rays *to);
     /* Rays into an operator's space, at dt_s seconds from its base for each ray. */
     void (*drift_in)(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
                      wf_rays *to);
@@ -29,15 +30,17 @@ typedef struct wf_packet_ops {
                      wf_points *directions);
     /* Normals through the map whose inverse is given, in place. */
     void (*place_normals)(const wf_affine *inverse, int count, wf_points *normals);
+    /* The same, each through a map of its own. */
+    void (*place_normals_each)(const wf_affine *const *inverse, int count, wf_points *normals);
     /* Where rays are at s. */
     void (*reach)(const wf_rays *rays, const double *s, wf_points *points);
     /* Hits of one solid alone, of which each ray has up to most_runs, nearer than those there
      * are, or as near and of a solid that comes before. */
     void (*nearer)(const wf_runs *runs, int most_runs, const double *rounding, int solid,
                    int count, wf_hits *hits);
-    /* The same of one ray of the hits, which the first of the runs are of. */
-    void (*nearer_one)(const wf_runs *runs, int most_runs, double rounding, int solid, int ray,
-                       wf_hits *hits);
+    /* The same of one ray of the hits, which those runs at a place are of. */
+    void (*nearer_one)(const wf_runs *runs, int most_runs, int place, double rounding,
+                       int solid, int ray, wf_hits *hits);
     void (*unit)(int count, wf_points *directions);
     /* How far rounding may reach along each ray for the size of where it starts: a share of
      * origin over direction. */

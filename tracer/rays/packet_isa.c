@@ -47,17 +47,21 @@ static void place(const wf_affine *a, const wf_rays *from, wf_rays *to) {
     to->count = from->count;
 }
 
-static void place_one(const wf_affine *a, const wf_rays *from, int ray, wf_rays *to) {
-    double ox = from->ox[ray], oy = from->oy[ray], oz = from->oz[ray];
-    double dx = from->dx[ray], dy = from->dy[ray], dz = from->dz[ray];
-    const double shift[3] = {a->d.x, a->d.y, a->d.z};
+static void place_each(const wf_affine *const *map, const wf_rays *from, const int *ray,
+                       int count, wf_rays *to) {
     double *const o[3] = {to->ox, to->oy, to->oz}, *const d[3] = {to->dx, to->dy, to->dz};
-    for (int k = 0; k < 3; k++) {
-        double at = row_of(a->m[k], shift[k], ox, oy, oz);
-        double along = row_along_of(a->m[k], dx, dy, dz);
-        for (int i = 0; i < 8; i++) o[k][i] = at, d[k][i] = along;
+    for (int i = 0; i < wf_places(count); i++) {
+        const wf_affine *a = map[i < count ? i : count - 1];
+        int at = ray[i < count ? i : count - 1];
+        double ox = from->ox[at], oy = from->oy[at], oz = from->oz[at];
+        double dx = from->dx[at], dy = from->dy[at], dz = from->dz[at];
+        const double shift[3] = {a->d.x, a->d.y, a->d.z};
+        for (int k = 0; k < 3; k++) {
+            o[k][i] = row_of(a->m[k], shift[k], ox, oy, oz);
+            d[k][i] = row_along_of(a->m[k], dx, dy, dz);
+        }
     }
-    to->count = 1;
+    to->count = count;
 }
 
 static void drift_in(const wf_ready_op *op, const double *dt_s, const wf_rays *from,
@@ -128,6 +132,19 @@ static void place_normals(const wf_affine *inverse, int count, wf_points *n) {
     }
 }
 
+static void place_normals_each(const wf_affine *const *inverse, int count, wf_points *n) {
+    for (int i = 0; i < wf_places(count); i++) {
+        const wf_affine *a = inverse[i < count ? i : count - 1];
+        double x = n->x[i], y = n->y[i], z = n->z[i];
+        const double m[3][3] = {{a->m[0][0], a->m[1][0], a->m[2][0]},
+                                {a->m[0][1], a->m[1][1], a->m[2][1]},
+                                {a->m[0][2], a->m[1][2], a->m[2][2]}};
+        n->x[i] = row_of(m[0], 0, x, y, z);
+        n->y[i] = row_of(m[1], 0, x, y, z);
+        n->z[i] = row_of(m[2], 0, x, y, z);
+    }
+}
+
 /* The largest component is brought near 1 first, so that no size of scene overflows. */
 static void unit(int count, wf_points *d) {
     for (int i = 0, n = wf_places(count); i < n; i++) {
@@ -185,10 +202,10 @@ static void nearer(const wf_runs *runs, int most_runs, const double *rounding, i
         nearer_end(runs->in[k], runs->out[k], rounding, solid, count, hits);
 }
 
-static void nearer_one(const wf_runs *runs, int most_runs, double rounding, int solid, int ray,
-                       wf_hits *hits) {
+static void nearer_one(const wf_runs *runs, int most_runs, int place, double rounding,
+                       int solid, int ray, wf_hits *hits) {
     for (int k = 0; k < most_runs; k++)
-        next_end(runs->in[k][0], runs->out[k][0], rounding, solid, &hits->s[ray],
+        next_end(runs->in[k][place], runs->out[k][place], rounding, solid, &hits->s[ray],
                  &hits->solid[ray], &hits->entering[ray]);
 }
 
@@ -246,6 +263,6 @@ static void no_second_run(wf_runs *runs, int count) {
 }
 
 const wf_packet_ops WF_ISA_TABLE(wf_packet_ops) = {
-    place,    place_one,     drift_in, spin_in,       find_sincos,
-    spin_out, place_normals, reach,    nearer,        nearer_one,
-    unit,     rounding,      farthest, no_second_run, box};
+    place,         place_each,         drift_in,      spin_in, find_sincos, spin_out,
+    place_normals, place_normals_each, reach,         nearer,  nearer_one,  unit,
+    rounding,      farthest,           no_second_run, box};

@@ -43,15 +43,15 @@ static wf_bounds polyhedron_bounds(SOLID) {
 
 /* clang-format off */
 static const wf_solid_type types[WF_SOLID_KINDS] = {
-    /*                 name          runs  bounds */
-    [WF_SPHERE]     = {"sphere",     1,    unit_bounds},
-    [WF_BOX]        = {"box",        1,    unit_bounds},
-    [WF_CYLINDER]   = {"cylinder",   1,    unit_bounds},
-    [WF_CONE]       = {"cone",       1,    unit_bounds},
-    [WF_TORUS]      = {"torus",      2,    torus_bounds},
-    [WF_HALFSPACE]  = {"halfspace",  1,    halfspace_bounds},
-    [WF_QUADRIC]    = {"quadric",    2,    endless_bounds},
-    [WF_POLYHEDRON] = {"polyhedron", 1,    polyhedron_bounds},
+    /*                 name          runs  alike  bounds */
+    [WF_SPHERE]     = {"sphere",     1,    true,  unit_bounds},
+    [WF_BOX]        = {"box",        1,    true,  unit_bounds},
+    [WF_CYLINDER]   = {"cylinder",   1,    true,  unit_bounds},
+    [WF_CONE]       = {"cone",       1,    false, unit_bounds},
+    [WF_TORUS]      = {"torus",      2,    false, torus_bounds},
+    [WF_HALFSPACE]  = {"halfspace",  1,    true,  halfspace_bounds},
+    [WF_QUADRIC]    = {"quadric",    2,    false, endless_bounds},
+    [WF_POLYHEDRON] = {"polyhedron", 1,    false, polyhedron_bounds},
 };
 /* clang-format on */
 

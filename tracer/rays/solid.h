@@ -49,7 +49,8 @@ typedef void wf_intersect_fn(const wf_solid *solid, const wf_plane *planes, cons
 /* A kind of solid in canonical form (scene.h). */
 typedef struct wf_solid_type {
     const char *name;
-    int most_runs;                                                      /* 1 or 2 */
+    int most_runs; /* 1 or 2 */
+    bool alike;    /* one is like any other in canonical form: loops look at rays alone */
     wf_bounds (*bounds)(const wf_solid *solid, const wf_plane *planes); /* holds all of it */
 } wf_solid_type;
 

@@ -34,18 +34,29 @@ typedef struct wf_shaft {
     double most;
 } wf_shaft;
 
+/* What waits to be looked at: a node, or ~place of an item. */
+typedef struct wf_stop {
+    double near; /* no part of it is met before this s */
+    int32_t what;
+} wf_stop;
+
+/* A ray on its way: along each axis, which plane of a box it meets first, and what is less from
+ * that plane and the last. */
 typedef struct wf_walk {
-    double o[3], d[3]; /* the ray */
-    double most;       /* what lies beyond this s is of no interest; `meet` may lower it */
-    /* Called with the places of items whose boxes the ray may meet, about the nearest first;
-     * near: no part of the item is met before this s. False ends the walk. */
-    bool (*meet)(void *user, struct wf_walk *walk, int place, double near);
-    void *user;
+    double most; /* what lies beyond this s is of no interest; may be lowered at any time */
+    double first[3], last[3], inverse[3];
+    int first_plane[3], last_plane[3];
+    int count; /* of stops; 0: the way has ended */
+    wf_stop stop[WF_TREE_DEPTH * WF_TREE_WIDTH];
 } wf_walk;
 
 typedef struct wf_walk_ops {
-    /* False: `meet` said so. */
-    bool (*go)(const wf_tree *tree, wf_walk *walk);
+    /* Begins a walk from o along d. */
+    void (*begin)(const wf_tree *tree, const double o[3], const double d[3], double most,
+                  wf_walk *walk);
+    /* The next item whose box the ray may meet, about the nearest first. False: there is none.
+     */
+    bool (*next)(const wf_tree *tree, wf_walk *walk, wf_stop *item);
     /* Appends to found, in no order, the items whose boxes the shaft may reach, and stops soon
      * after it has found more than `most`; found has space for every item. Returns how many. */
     int (*find)(const wf_tree *tree, const wf_shaft *shaft, int most, int *found);

@@ -6,12 +6,6 @@
 #include "filters/base/isa_file.h"
 #include "tracer/rays/lanes.h"
 
-/* What waits to be looked at. */
-typedef struct stop {
-    double near;
-    int32_t node;
-} stop;
-
 /* ---- Rays ---- */
 
 /* By so much of the numbers' size boxes are wider for a ray: what rounding may do to it on its
@@ -19,85 +13,81 @@ typedef struct stop {
  */
 #define WIDER 0x1p-38
 
-/* A ray made ready: along each axis, which plane of a box it meets first, and what is less from
- * that plane and the last. */
-typedef struct way {
-    lanes first[3], last[3], inverse[3];
-    int first_plane[3], last_plane[3];
-} way;
-
-static inline way make_way(const wf_tree *tree, const wf_walk *w) {
-    way r;
+static void begin(const wf_tree *tree, const double o[3], const double d[3], double most,
+                  wf_walk *w) {
     double size = tree->size;
-    for (int k = 0; k < 3; k++) size = fabs(w->o[k]) > size ? fabs(w->o[k]) : size;
+    for (int k = 0; k < 3; k++) size = fabs(o[k]) > size ? fabs(o[k]) : size;
     for (int k = 0; k < 3; k++) {
-        double up = w->o[k] + size * WIDER, low = w->o[k] - size * WIDER;
-        bool down = signbit(w->d[k]);
-        r.first[k] = of(down ? low : up);
-        r.last[k] = of(down ? up : low);
-        r.inverse[k] = of(1 / w->d[k]);
-        r.first_plane[k] = down ? 3 + k : k;
-        r.last_plane[k] = down ? k : 3 + k;
+        double up = o[k] + size * WIDER, low = o[k] - size * WIDER;
+        bool down = signbit(d[k]);
+        w->first[k] = down ? low : up;
+        w->last[k] = down ? up : low;
+        w->inverse[k] = 1 / d[k];
+        w->first_plane[k] = down ? 3 + k : k;
+        w->last_plane[k] = down ? k : 3 + k;
     }
-    return r;
+    w->most = most;
+    w->count = tree->node_count > 0;
+    w->stop[0] = (wf_stop){0, 0};
 }
 
 /* The boxes that the ray meets, a bit each, and where. What is no number, of a ray along a
  * plane, counts as met. */
-static inline unsigned meet_boxes(const wf_tree_node *node, const way *r, double most,
-                                  lanes *near) {
-    lanes from = of(0), to = of(most);
+static inline unsigned meet_boxes(const wf_tree_node *node, const wf_walk *w, lanes *near) {
+    lanes from = of(0), to = of(w->most);
     for (int k = 0; k < 3; k++) {
-        lanes a = *(const lanes *)node->plane[r->first_plane[k]];
-        lanes b = *(const lanes *)node->plane[r->last_plane[k]];
-        from = larger((a - r->first[k]) * r->inverse[k], from);
-        to = smaller((b - r->last[k]) * r->inverse[k], to);
+        lanes a = *(const lanes *)node->plane[w->first_plane[k]];
+        lanes b = *(const lanes *)node->plane[w->last_plane[k]];
+        from = larger((a - w->first[k]) * w->inverse[k], from);
+        to = smaller((b - w->last[k]) * w->inverse[k], to);
     }
     *near = from;
     return not_over(from, to) & node->used;
 }
 
 /* Puts what was met behind the stops there are, the nearest last. */
-static inline int add_stops(const wf_tree_node *node, unsigned met, const double *near,
-                            stop *stops, int count) {
-    int first = count;
+static inline void add_stops(const wf_tree_node *node, unsigned met, const double *near,
+                             wf_walk *w) {
+    int first = w->count, count = first;
     for (; met; met &= met - 1) {
         int k = __builtin_ctz(met), at = count++;
-        for (; at > first && stops[at - 1].near < near[k]; at--) stops[at] = stops[at - 1];
-        stops[at] = (stop){near[k], node->child[k]};
+        for (; at > first && w->stop[at - 1].near < near[k]; at--)
+            w->stop[at] = w->stop[at - 1];
+        w->stop[at] = (wf_stop){near[k], node->child[k]};
     }
-    return count;
+    w->count = count;
 }
 
-/* Those items of stops from first on that are near enough, the last first. */
-static inline bool meet_items(const stop *stops, int first, int count, wf_walk *w) {
-    while (count > first) {
-        const stop *s = &stops[--count];
-        if (s->near <= w->most && !w->meet(w->user, w, ~s->node, s->near)) return false;
-    }
-    return true;
-}
-
-/* Children are all items, or all nodes. */
-static bool go(const wf_tree *tree, wf_walk *w) {
-    stop stops[WF_TREE_DEPTH * WF_TREE_WIDTH];
-    int count = 0;
-    if (!tree->node_count) return true;
-    way r = make_way(tree, w);
-    stops[count++] = (stop){0, 0};
+/* The last of the stops that is near enough. False: none is. */
+static inline bool pop(wf_walk *w, wf_stop *stop) {
+    int count = w->count;
     while (count > 0) {
-        stop s = stops[--count];
-        lanes near;
-        if (s.near > w->most) continue;
-        const wf_tree_node *node = &tree->nodes[s.node];
-        unsigned met = meet_boxes(node, &r, w->most, &near);
-        if (!met) continue;
-        int more = add_stops(node, met, (const double *)&near, stops, count);
-        if (node->child[0] >= 0)
-            count = more;
-        else if (!meet_items(stops, count, more, w))
-            return false;
+        *stop = w->stop[--count];
+        if (stop->near > w->most) continue;
+        w->count = count;
+        return true;
     }
+    w->count = 0;
+    return false;
+}
+
+/* Where one box alone is met, it is gone into at once. */
+static bool next(const wf_tree *tree, wf_walk *w, wf_stop *item) {
+    wf_stop s;
+    if (!pop(w, &s)) return false;
+    while (s.what >= 0) {
+        const wf_tree_node *node = &tree->nodes[s.what];
+        _Alignas(64) double near[WF_TREE_WIDTH];
+        unsigned met = meet_boxes(node, w, (lanes *)near);
+        if (met && !(met & (met - 1))) {
+            int k = __builtin_ctz(met);
+            s = (wf_stop){near[k], node->child[k]};
+            continue;
+        }
+        add_stops(node, met, near, w);
+        if (!pop(w, &s)) return false;
+    }
+    *item = s;
     return true;
 }
 
@@ -142,4 +132,4 @@ static int find(const wf_tree *tree, const wf_shaft *shaft, int most, int *found
     return n;
 }
 
-const wf_walk_ops WF_ISA_TABLE(wf_walk_ops) = {go, find};
+const wf_walk_ops WF_ISA_TABLE(wf_walk_ops) = {begin, next, find};

@@ -8,6 +8,7 @@
 #include "tracer/trace/carry.h"
 #include "tracer/trace/find.h"
 #include "tracer/trace/nearest.h"
+#include "tracer/trace/seek.h"
 
 #define PI 3.14159265358979323846
 
@@ -119,16 +120,11 @@ static bool fills_more(const wf_tracer *t, int part, int than) {
     return a < b || (a == b && part > than);
 }
 
-static void fill(const wf_tracer *t, int part, const uint8_t *in, const int *lane, int count,
-                 filling *out) {
-    for (int k = 0; k < count; k++) {
-        int i = lane[k];
-        if (!in[k]) continue;
-        if (!t->media[part].clear)
-            out->opaque[i] = part;
-        else if (fills_more(t, part, out->clear[i]))
-            out->clear[i] = part;
-    }
+static void fill(const wf_tracer *t, int part, int lane, filling *out) {
+    if (!t->media[part].clear)
+        out->opaque[lane] = part > out->opaque[lane] ? part : out->opaque[lane];
+    else if (fills_more(t, part, out->clear[lane]))
+        out->clear[lane] = part;
 }
 
 /* Places are the origins of a packet's rays. */
@@ -137,7 +133,8 @@ static bool fill_packet(const wf_tracer *t, wf_trace_scratch *s, const wf_packet
     uint8_t in[WF_PACKET];
     for (size_t n = 0; n < culls->part_count; n++) {
         if (!wf_holds(t, s, packet, culls, n, in)) return false;
-        fill(t, culls->part[n].part, in, lane, packet->rays.count, out);
+        for (int k = 0; k < packet->rays.count; k++)
+            if (in[k]) fill(t, culls->part[n].part, lane[k], out);
     }
     return true;
 }
@@ -146,22 +143,35 @@ static bool fill_packet(const wf_tracer *t, wf_trace_scratch *s, const wf_packet
  * itself. */
 #define FEW_PARTS 24
 
+typedef struct filler {
+    const wf_tracer *t;
+    const int *lane;
+    filling *out;
+} filler;
+
+static void fill_one(void *user, int ray, int part) {
+    const filler *f = user;
+    fill(f->t, part, f->lane[ray], f->out);
+}
+
+static bool fill_each(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                      const wf_shaft *shaft, const int *lane, filling *out) {
+    filler f = {t, lane, out};
+    wf_culls *culls = &s->probe.culls;
+    return wf_find_endless(t, s, packet, shaft, culls) &&
+           fill_packet(t, s, packet, lane, culls, out) &&
+           wf_seek_holders(t, s, packet, fill_one, &f);
+}
+
 static bool find_filling(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
                          const int *lane, filling *out) {
     wf_culls *culls = &s->probe.culls;
     wf_shaft shaft = wf_shaft_of_rays(&packet->rays, 0);
-    int count = packet->rays.count;
     bool few;
     wf_carry_begin(s);
-    if (!wf_find_few(t, s, packet, &shaft, count > 1 ? FEW_PARTS : t->part_count, &few, culls))
-        return false;
-    if (few) return fill_packet(t, s, packet, lane, culls, out);
-    for (int k = 0; k < count; k++) {
-        wf_packet one;
-        wf_packet_take(packet, &k, 1, &one);
-        if (!find_filling(t, s, &one, &lane[k], out)) return false;
-    }
-    return true;
+    if (!wf_find_few(t, s, packet, &shaft, FEW_PARTS, &few, culls)) return false;
+    return few ? fill_packet(t, s, packet, lane, culls, out)
+               : fill_each(t, s, packet, &shaft, lane, out);
 }
 
 /* ---- Both sides of surfaces ---- */

@@ -113,12 +113,62 @@ static bool paint_few(const painter *p, int64_t solid, const int *lane, int coun
     return true;
 }
 
+/* ---- Solids that are alike ---- */
+
+/* Rays that meet solids of one kind, which are alike but for their maps, in one space. */
+typedef struct alike {
+    wf_solid_kind kind;
+    int op, count, lane[WF_PACKET];
+    const wf_solid *solid[WF_PACKET];
+} alike;
+
+/* Colors of lanes that are even. */
+static void put_colors(const painter *p, const alike *like) {
+    for (int k = 0; k < like->count; k++) {
+        const wf_material *m = &p->t->scene->materials[like->solid[k]->material];
+        for (int c = 0; c < 3; c++) p->surface->color[c][like->lane[k]] = (double)m->color[c];
+    }
+}
+
+/* Each ray with a solid of its own. */
+static bool paint_alike(const painter *p, const alike *like) {
+    const wf_tracer *t = p->t;
+    const wf_affine *map[WF_PACKET];
+    int ray[WF_PACKET], count = like->count;
+    double at[WF_PACKET];
+    wf_rays local;
+    wf_points point, normal;
+    wf_packet_take(&p->l->packet, like->lane, count, &p->s->some);
+    wf_carry_begin(p->s);
+    const wf_rays *rays = wf_carry_rays(t, p->s, &p->s->some, like->op);
+    if (!rays) return false;
+    for (int k = 0; k < wf_places(count); k++) {
+        int of = k < count ? k : count - 1;
+        at[k] = p->l->hits.s[like->lane[of]];
+        map[k] = &like->solid[of]->inverse;
+        ray[k] = of;
+    }
+    t->packet->place_each(map, rays, ray, count, &local);
+    t->packet->reach(&local, at, &point);
+    t->normals[like->kind](NULL, NULL, &point, count, &normal);
+    t->packet->place_normals_each(map, count, &normal);
+    wf_carry_normals(t, p->s, like->op, count, &normal);
+    for (int k = 0; k < count; k++) {
+        p->l->normal.x[like->lane[k]] = normal.x[k];
+        p->l->normal.y[like->lane[k]] = normal.y[k];
+        p->l->normal.z[like->lane[k]] = normal.z[k];
+    }
+    put_colors(p, like);
+    return true;
+}
+
 /* ---- All ---- */
 
 /* The rays that meet one solid, in a row of those of all. */
 typedef struct group {
     int64_t solid;
     int first, count;
+    bool done;
 } group;
 
 /* Puts the packet's lanes in order of what they meet; returns how many solids there are. */
@@ -149,6 +199,39 @@ static bool is_few(const painter *p, const group *g) {
     return 4 * g->count < p->count;
 }
 
+static const wf_solid *solid_of(const painter *p, const group *g) {
+    return &p->t->scene->solids[g->solid];
+}
+
+/* Whether a group's looks may be found together with those of others. */
+static bool is_plain(const painter *p, const group *g) {
+    const wf_solid *solid = solid_of(p, g);
+    return !g->done && is_few(p, g) && wf_solid_type_of(solid->kind)->alike &&
+           p->t->scene->materials[solid->material].texture.kind == WF_TEXTURE_NONE;
+}
+
+/* All that may be found together with the first of these groups. */
+static bool paint_together(const painter *p, group *groups, int count, const int *lane) {
+    alike like = {.kind = solid_of(p, groups)->kind, .op = solid_of(p, groups)->op};
+    for (int n = 0; n < count; n++) {
+        const wf_solid *solid = solid_of(p, &groups[n]);
+        if (!is_plain(p, &groups[n]) || solid->kind != like.kind || solid->op != like.op)
+            continue;
+        for (int k = 0; k < groups[n].count; k++) {
+            like.solid[like.count] = solid;
+            like.lane[like.count++] = lane[groups[n].first + k];
+        }
+        groups[n].done = true;
+    }
+    return paint_alike(p, &like);
+}
+
+static bool paint_group(const painter *p, group *groups, int count, const int *lane) {
+    if (groups->done) return true;
+    if (is_plain(p, groups)) return paint_together(p, groups, count, lane);
+    return paint_few(p, groups->solid, lane + groups->first, groups->count);
+}
+
 bool wf_paint(const wf_tracer *t, wf_trace_scratch *s, wf_trace_level *l, wf_surfaces *surface,
               bool *shines) {
     painter p = {t, s, l, surface, l->packet.rays.count};
@@ -156,11 +239,13 @@ bool wf_paint(const wf_tracer *t, wf_trace_scratch *s, wf_trace_level *l, wf_sur
     int lane[WF_PACKET], count = find_groups(&p, groups, lane);
     memset(surface, 0, sizeof *surface);
     *shines = false;
-    for (int k = 0; k < count; k++)
-        if (!is_few(&p, &groups[k]) && !paint_many(&p, groups[k].solid)) return false;
+    for (int k = 0; k < count; k++) {
+        groups[k].done = !is_few(&p, &groups[k]);
+        if (groups[k].done && !paint_many(&p, groups[k].solid)) return false;
+    }
     for (int k = 0; k < count; k++) {
         const group *g = &groups[k];
-        if (is_few(&p, g) && !paint_few(&p, g->solid, lane + g->first, g->count)) return false;
+        if (!paint_group(&p, &groups[k], count - k, lane)) return false;
         put_material(&p, g->solid, lane + g->first, g->count);
         *shines |= surface->specular[lane[g->first]] > 0;
     }

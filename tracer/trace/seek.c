@@ -19,8 +19,11 @@ typedef struct seeker {
     wf_seek_what what;
     const wf_grove *grove;
     const wf_rays *rays; /* of the packet, in the space of the grove */
-    int ray;             /* of the packet, that is on its way */
+    int ray;             /* of the packet, that sets out next */
     int taken;           /* that is the scratch's one ray; -1: none */
+    const wf_leaf *last; /* what stopped a ray last */
+    wf_holder_fn *found; /* of WF_SEEK_HOLDERS */
+    void *user;
     bool failed;
     bool inside[WF_PACKET]; /* rays that start inside a union, which is to be seen as a whole */
     double far[WF_PACKET];  /* how far each is looked along */
@@ -31,52 +34,80 @@ typedef struct seeker {
 /* ---- Parts ---- */
 
 /* Whether the point where the ray starts is in the solid that the runs are of. */
-static bool starts_in(const wf_runs *r, int most_runs) {
+static bool starts_in(const wf_runs *r, int most_runs, int place) {
     bool in = false;
-    for (int k = 0; k < most_runs; k++) in |= r->in[k][0] < 0 && r->out[k][0] > 0;
+    for (int k = 0; k < most_runs; k++) in |= r->in[k][place] < 0 && r->out[k][place] > 0;
     return in;
 }
 
-/* Makes the ray in hand the scratch's own, in as many places as loops run over. */
-static void take_ray(seeker *q) {
+/* Makes a ray the scratch's own, in as many places as loops run over. */
+static void take_ray(seeker *q, int ray) {
     wf_trace_scratch *s = q->s;
-    int lane = q->ray;
-    if (q->taken == lane) return;
-    wf_packet_take(q->packet, &lane, 1, &s->ray);
+    if (q->taken == ray) return;
+    wf_packet_take(q->packet, &ray, 1, &s->ray);
     wf_carry_begin(s);
-    q->taken = lane;
+    q->taken = ray;
 }
 
-/* The ray in the space of a leaf. NULL: no memory. */
+/* The ray in the space of a leaf, and which it is there. NULL: no memory. */
 static const wf_rays *rays_for(seeker *q, const wf_leaf *leaf, int *ray) {
-    *ray = q->ray;
     if (leaf->op == q->grove->op) return q->rays;
-    *ray = 0;
     q->s->spaces = &q->s->of_ray;
-    take_ray(q);
+    take_ray(q, *ray);
+    *ray = 0;
     const wf_rays *rays = wf_carry_rays(q->t, q->s, &q->s->ray, leaf->op);
     q->s->spaces = &q->s->of_packet;
     return rays;
 }
 
-/* Without a look at the solid itself, which is far off in memory, unless it has a shape. */
-static bool try_solid(seeker *q, const wf_leaf *leaf, bool around) {
+static bool is_around(const seeker *q, const wf_leaf *leaf, double near) {
+    return q->what == WF_SEEK_NEAREST && near <= 0 && leaf->sibling;
+}
+
+/* What the runs at a place say of a way's ray. */
+static void take_run(seeker *q, const wf_way *w, int place) {
+    const wf_leaf *leaf = w->leaf;
+    int most_runs = wf_solid_type_of(leaf->kind)->most_runs;
+    if (q->what == WF_SEEK_HOLDERS) {
+        if (starts_in(&q->runs, most_runs, place)) q->found(q->user, w->ray, leaf->part);
+        return;
+    }
+    if (is_around(q, leaf, w->near)) q->inside[w->ray] |= starts_in(&q->runs, most_runs, place);
+    q->t->packet->nearer_one(&q->runs, most_runs, place, q->rounding[w->ray], leaf->solid,
+                             w->ray, q->hits);
+    if (q->hits->solid[w->ray] >= 0) q->last = leaf;
+}
+
+/* One ray and one solid. */
+static bool try_solid(seeker *q, const wf_way *w) {
     const wf_tracer *t = q->t;
-    int ray, most_runs = wf_solid_type_of(leaf->kind)->most_runs;
+    const wf_leaf *leaf = w->leaf;
+    const wf_affine *map = &leaf->inverse;
+    int ray = w->ray;
     const wf_rays *rays = rays_for(q, leaf, &ray);
     wf_rays local;
     if (!rays) return false;
-    t->packet->place_one(&leaf->inverse, rays, ray, &local);
+    t->packet->place_each(&map, rays, &ray, 1, &local);
     t->intersect[leaf->kind](&t->scene->solids[leaf->solid], t->scene->planes, &local,
                              &q->runs);
-    q->inside[q->ray] |= around && starts_in(&q->runs, most_runs);
-    t->packet->nearer_one(&q->runs, most_runs, q->rounding[q->ray], leaf->solid, q->ray,
-                          q->hits);
+    take_run(q, w, 0);
     return true;
 }
 
+/* Rays that each meet a solid of one kind, all of which are alike: without a look at the solids
+ * themselves, which are far off in memory. */
+static void try_alike(seeker *q, wf_way *const *ways, int count) {
+    const wf_affine *map[WF_WAYS];
+    int ray[WF_WAYS];
+    wf_rays local;
+    for (int k = 0; k < count; k++) map[k] = &ways[k]->leaf->inverse, ray[k] = ways[k]->ray;
+    q->t->packet->place_each(map, q->rays, ray, count, &local);
+    q->t->intersect[ways[0]->leaf->kind](NULL, NULL, &local, &q->runs);
+    for (int k = 0; k < count; k++) take_run(q, ways[k], k);
+}
+
 /* Programs are looked at for all rays together that may meet them. */
-static bool wait_for(seeker *q, const wf_leaf *leaf, double near) {
+static bool wait_for(seeker *q, const wf_way *w) {
     wf_trace_scratch *s = q->s;
     if (s->waiting_count == s->waiting_capacity) {
         size_t capacity = 2 * s->waiting_capacity + WF_PACKET;
@@ -85,64 +116,94 @@ static bool wait_for(seeker *q, const wf_leaf *leaf, double near) {
         s->waiting = grown;
         s->waiting_capacity = capacity;
     }
-    s->waiting[s->waiting_count++] = (wf_waiting){leaf, near, q->ray};
+    s->waiting[s->waiting_count++] = (wf_waiting){w->leaf, w->near, w->ray};
     return true;
 }
 
-static bool is_around(const seeker *q, const wf_leaf *leaf, double near) {
-    return q->what == WF_SEEK_NEAREST && near <= 0 && leaf->sibling;
+static bool is_alike(const seeker *q, const wf_leaf *leaf) {
+    return leaf->solid >= 0 && leaf->op == q->grove->op && wf_solid_type_of(leaf->kind)->alike;
 }
 
-static bool try_leaf(seeker *q, const wf_leaf *leaf, double near) {
-    bool good = leaf->solid < 0 ? wait_for(q, leaf, near)
-                                : try_solid(q, leaf, is_around(q, leaf, near));
-    q->failed = !good;
-    return good && !q->inside[q->ray] &&
-           (q->what == WF_SEEK_NEAREST || q->hits->solid[q->ray] < 0);
+/* Tries what ways have come to: those of one kind together. */
+static bool try_leaves(seeker *q, wf_way **ways, int count) {
+    for (int left; count > 0; count = left) {
+        wf_way *same[WF_WAYS];
+        const wf_leaf *leaf = ways[0]->leaf;
+        int of_kind = 0;
+        left = 0;
+        if (!is_alike(q, leaf)) {
+            if (!(leaf->solid < 0 ? wait_for(q, ways[0]) : try_solid(q, ways[0]))) return false;
+            left = count - 1;
+            ways++;
+            continue;
+        }
+        for (int k = 0; k < count; k++)
+            if (is_alike(q, ways[k]->leaf) && ways[k]->leaf->kind == leaf->kind)
+                same[of_kind++] = ways[k];
+            else
+                ways[left++] = ways[k];
+        try_alike(q, same, of_kind);
+    }
+    return true;
 }
 
 /* ---- Ways ---- */
 
-typedef struct way {
-    seeker *q;
-    const wf_leaf *last; /* what was met last */
-} way;
-
-static bool meet(void *user, wf_walk *walk, int place, double near) {
-    way *w = user;
-    seeker *q = w->q;
-    const wf_leaf *leaf = &q->grove->leaves[place];
-    bool on = try_leaf(q, leaf, near);
-    walk->most = q->hits->s[q->ray];
-    if (leaf->solid >= 0 && q->hits->solid[q->ray] >= 0) w->last = leaf;
-    return on;
+static bool has_found(const seeker *q, int ray) {
+    return q->inside[ray] || (q->what == WF_SEEK_ANY && q->hits->solid[ray] >= 0);
 }
 
-/* What stopped the ray before is likely to stop this one. */
-static void go_one(way *w) {
-    seeker *q = w->q;
+/* Sets out with the next ray that is to go. What stopped another before is likely to stop this
+ * one. False: none is left. */
+static bool set_out(seeker *q, wf_way *w) {
     const wf_rays *r = q->rays;
-    int i = q->ray;
-    wf_walk walk = {.o = {r->ox[i], r->oy[i], r->oz[i]},
-                    .d = {r->dx[i], r->dy[i], r->dz[i]},
-                    .most = q->hits->s[i],
-                    .meet = meet,
-                    .user = w};
-    if (q->what == WF_SEEK_ANY && w->last && !try_leaf(q, w->last, 0)) return;
-    q->t->walk->go(&q->grove->tree, &walk);
+    while (q->ray < q->packet->rays.count && has_found(q, q->ray)) q->ray++;
+    if (q->ray == q->packet->rays.count) return false;
+    int i = w->ray = q->ray++;
+    const double o[3] = {r->ox[i], r->oy[i], r->oz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
+    q->t->walk->begin(&q->grove->tree, o, d, q->hits->s[i], &w->walk);
+    w->guess = q->what == WF_SEEK_ANY ? q->last : NULL;
+    return true;
 }
 
+/* Goes on to the next part. False: there is none. */
+static bool go_on(seeker *q, wf_way *w) {
+    wf_stop stop;
+    w->near = 0;
+    w->leaf = w->guess;
+    w->guess = NULL;
+    if (w->leaf) return true;
+    w->walk.most = q->hits->s[w->ray];
+    if (has_found(q, w->ray) || !q->t->walk->next(&q->grove->tree, &w->walk, &stop))
+        return false;
+    w->leaf = &q->grove->leaves[~stop.what];
+    w->near = stop.near;
+    return true;
+}
+
+/* Several rays are on their way at once, so that what they come to is looked at together. */
 static bool go_through(seeker *q, const wf_grove *grove) {
-    way w = {.q = q};
+    wf_way *way[WF_WAYS], *at[WF_WAYS];
+    int count = 0, come = 0;
     q->grove = grove;
+    q->last = NULL;
+    q->ray = 0;
     if (!grove->tree.item_count) return true;
     q->rays = wf_carry_rays(q->t, q->s, q->packet, grove->op);
     if (!q->rays) return false;
-    for (q->ray = 0; q->ray < q->packet->rays.count && !q->failed; q->ray++) {
-        bool found = q->what == WF_SEEK_ANY && q->hits->solid[q->ray] >= 0;
-        if (!found && !q->inside[q->ray]) go_one(&w);
+    while (count < WF_WAYS && set_out(q, &q->s->ways[count]))
+        way[count] = &q->s->ways[count], count++;
+    while (count > 0) {
+        come = 0;
+        for (int k = 0; k < count;) {
+            if (go_on(q, way[k]))
+                at[come++] = way[k++];
+            else if (!set_out(q, way[k]))
+                way[k] = way[--count];
+        }
+        if (!try_leaves(q, at, come)) return false;
     }
-    return !q->failed;
+    return true;
 }
 
 /* ---- Programs ---- */
@@ -181,6 +242,20 @@ static bool try_program(const seeker *q, const wf_leaf *leaf, bool *inside) {
             wf_nearest_part(q->t, s, some, &s->alone, rounding, inside, &s->some_hits));
 }
 
+/* Tells of those of the rays that start in the part. */
+static bool try_holder(const seeker *q, const wf_leaf *leaf, const int *lane) {
+    wf_trace_scratch *s = q->s;
+    uint8_t in[WF_PACKET];
+    wf_shaft shaft = wf_shaft_of_rays(&s->some.rays, 0);
+    wf_carry_begin(s);
+    if (!wf_find_part(q->t, s, &s->some, &shaft, leaf->part, &s->alone)) return false;
+    if (!s->alone.part_count) return true;
+    if (!wf_holds(q->t, s, &s->some, &s->alone, 0, in)) return false;
+    for (int k = 0; k < s->some.rays.count; k++)
+        if (in[k]) q->found(q->user, lane[k], leaf->part);
+    return true;
+}
+
 /* Where one of them starts inside the part, all are looked at again. */
 static bool try_waiting(seeker *q, const wf_waiting *w, size_t count) {
     wf_hits *hits = &q->s->some_hits;
@@ -192,8 +267,11 @@ static bool try_waiting(seeker *q, const wf_waiting *w, size_t count) {
     for (int k = 0; k < wf_places(n); k++)
         wf_hits_copy(q->hits, lane[k < n ? k : n - 1], hits, k);
     q->s->spaces = &q->s->of_ray;
-    bool good = try_program(q, w->leaf, around ? &inside : NULL);
+    bool holders = q->what == WF_SEEK_HOLDERS;
+    bool good = holders ? try_holder(q, w->leaf, lane)
+                        : try_program(q, w->leaf, around ? &inside : NULL);
     q->s->spaces = &q->s->of_packet;
+    if (holders) return good;
     for (int k = 0; k < n; k++) {
         wf_hits_copy(hits, k, q->hits, lane[k]);
         q->inside[lane[k]] |= inside;
@@ -250,14 +328,33 @@ int wf_seek_above(const wf_tracer *t, wf_seek_what what) {
     return can ? FEW_PARTS : t->part_count;
 }
 
+static bool go_through_all(seeker *q) {
+    q->s->waiting_count = 0;
+    q->t->packet->rounding(&q->packet->rays, WF_ROUNDING, q->rounding);
+    for (int n = 0; n < q->t->groves->count; n++)
+        if (!go_through(q, &q->t->groves->grove[n])) return false;
+    return try_programs(q);
+}
+
 bool wf_seek(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
              wf_seek_what what, wf_hits *hits) {
     seeker q = {.t = t, .s = s, .packet = packet, .hits = hits, .what = what, .taken = -1};
     memcpy(q.far, hits->s, sizeof q.far);
-    if (!try_endless(&q)) return false;
-    t->packet->rounding(&packet->rays, WF_ROUNDING, q.rounding);
-    s->waiting_count = 0;
-    for (int n = 0; n < t->groves->count; n++)
-        if (!go_through(&q, &t->groves->grove[n])) return false;
-    return try_programs(&q) && look_again(&q);
+    return try_endless(&q) && go_through_all(&q) && look_again(&q);
+}
+
+bool wf_seek_holders(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
+                     wf_holder_fn *found, void *user) {
+    wf_hits hits;
+    seeker q = {.t = t,
+                .s = s,
+                .packet = packet,
+                .hits = &hits,
+                .what = WF_SEEK_HOLDERS,
+                .taken = -1,
+                .found = found,
+                .user = user};
+    wf_hits_clear(&hits);
+    memset(hits.s, 0, sizeof hits.s);
+    return go_through_all(&q);
 }

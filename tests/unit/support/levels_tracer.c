@@ -107,13 +107,29 @@ static void place(level_run *r) {
     keep_rays(r, &to);
 }
 
-static void place_one(level_run *r) {
-    wf_affine a = drawn_affine(r);
+static void place_each(level_run *r) {
+    wf_affine a[8];
+    const wf_affine *map[8];
     wf_rays from, to;
+    int ray[8], count = 1 + (int)(level_draw(r) % 8);
     fill_rays(r, &from), fill_rays(r, &to);
-    int ray = (int)(level_draw(r) % (unsigned)from.count);
-    packet(r)->place_one(&a, &from, ray, &to);
+    for (int k = 0; k < 8; k++) {
+        a[k] = drawn_affine(r), map[k] = &a[k];
+        ray[k] = (int)(level_draw(r) % (unsigned)from.count);
+    }
+    packet(r)->place_each(map, &from, ray, count, &to);
     keep_rays(r, &to);
+}
+
+static void place_normals_each(level_run *r) {
+    wf_affine a[WF_PACKET];
+    const wf_affine *map[WF_PACKET];
+    wf_points normals;
+    int count = drawn_count(r);
+    fill_points(r, &normals);
+    for (int k = 0; k < count; k++) a[k] = drawn_affine(r), map[k] = &a[k];
+    packet(r)->place_normals_each(map, count, &normals);
+    keep_points(r, &normals);
 }
 
 static void drift_in(level_run *r) {
@@ -193,8 +209,9 @@ static void nearer_one(level_run *r) {
     wf_hits hits;
     fill_runs(r, &runs), fill_hits(r, &hits);
     int ray = (int)(level_draw(r) % WF_PACKET), most_runs = 1 + (int)(level_draw(r) % 2);
-    if (level_draw(r) % 3 == 0 && hits.s[ray] < HUGE_VAL) runs.in[0][0] = hits.s[ray];
-    packet(r)->nearer_one(&runs, most_runs, 1e-3, level_draw(r) % 8, ray, &hits);
+    int place = (int)(level_draw(r) % 8), solid = (int)(level_draw(r) % 8);
+    if (level_draw(r) % 3 == 0 && hits.s[ray] < HUGE_VAL) runs.in[0][place] = hits.s[ray];
+    packet(r)->nearer_one(&runs, most_runs, place, 1e-3, solid, ray, &hits);
     keep_hits(r, &hits);
 }
 
@@ -240,7 +257,8 @@ static void box_of_rays(level_run *r) {
 
 static const level_row packets[] = {
     {"packet.place", place, false, 0},
-    {"packet.place_one", place_one, false, 0},
+    {"packet.place_each", place_each, false, 0},
+    {"packet.place_normals_each", place_normals_each, false, 0},
     {"packet.drift_in", drift_in, false, 0},
     {"packet.spin_in", spin_in, false, 0},
     {"packet.find_sincos", find_sincos, false, 0},
@@ -387,20 +405,6 @@ static const level_row csgs[] = {
 
 enum { MOST_MET = 64 };
 
-typedef struct walked {
-    int64_t item[MOST_MET];
-    double near[MOST_MET];
-    size_t count;
-} walked;
-
-static bool meet(void *user, wf_walk *walk, int item, double near) {
-    walked *w = user;
-    w->item[w->count] = item;
-    w->near[w->count++] = near;
-    if (item % 5 == 0) walk->most = near + 1;
-    return item % 13 > 0;
-}
-
 /* A root over four nodes, each of which it has twice. */
 static void fill_tree(level_run *r, wf_tree_node *nodes) {
     for (int n = 0; n < 5; n++) {
@@ -418,18 +422,22 @@ static void fill_tree(level_run *r, wf_tree_node *nodes) {
 static void walk_tree(level_run *r) {
     wf_tree_node nodes[5];
     const wf_tree tree = {nodes, NULL, 5, 32, 5};
-    walked w = {.count = 0};
-    wf_walk walk = {.most = level_draw(r) % 2 ? HUGE_VAL : 3, .meet = meet, .user = &w};
+    const wf_walk_ops *ops = wf_walk_ops_at(r->level);
+    wf_walk walk;
+    wf_stop item;
+    double o[3], d[3], most = level_draw(r) % 2 ? HUGE_VAL : 3;
     fill_tree(r, nodes);
     for (int axis = 0; axis < 3; axis++) {
-        walk.o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].plane[axis][0];
-        walk.d[axis] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
+        o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].plane[axis][0];
+        d[axis] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
     }
-    if (r->wild) walk.o[0] = level_number(r), walk.d[1] = level_number(r);
-    int64_t all = wf_walk_ops_at(r->level)->go(&tree, &walk);
-    level_keep_integers(r, &all, 1);
-    level_keep_integers(r, w.item, w.count);
-    level_keep_doubles(r, w.near, w.count);
+    if (r->wild) o[0] = level_number(r), d[1] = level_number(r);
+    ops->begin(&tree, o, d, most, &walk);
+    for (int n = 0; n < MOST_MET && ops->next(&tree, &walk, &item); n++) {
+        level_keep_integers(r, &(int64_t){item.what}, 1);
+        level_keep_doubles(r, &item.near, 1);
+        if (item.what % 5 == 0) walk.most = item.near + 1;
+    }
 }
 
 static void find_in_tree(level_run *r) {
@@ -451,7 +459,21 @@ static void find_in_tree(level_run *r) {
     for (int k = 0; k < count; k++) level_keep_integers(r, &(int64_t){found[k]}, 1);
 }
 
-static const level_row walks[] = {{"walk.go", walk_tree, false, 0},
+/* What a walk begins with. */
+static void begin_walk(level_run *r) {
+    const wf_tree tree = {NULL, NULL, 1, 1, level_uniform(r, 0, 5)};
+    const double o[3] = {level_number(r), level_number(r), level_number(r)};
+    const double d[3] = {level_number(r), level_uniform(r, -1, 1),
+                         level_draw(r) % 2 ? 0. : -0.};
+    wf_walk walk;
+    wf_walk_ops_at(r->level)->begin(&tree, o, d, 3, &walk);
+    level_keep_doubles(r, walk.first, 3);
+    level_keep_doubles(r, walk.last, 3);
+    level_keep_doubles(r, walk.inverse, 3);
+}
+
+static const level_row walks[] = {{"walk.begin", begin_walk, false, 0},
+                                  {"walk.next", walk_tree, false, 0},
                                   {"walk.find", find_in_tree, false, 0}};
 
 /* ---- Light ---- */

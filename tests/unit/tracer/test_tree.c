@@ -29,8 +29,12 @@ static void make_boxes(wf_bounds *boxes, int count, double size, uint32_t *seed)
         }
 }
 
+typedef struct test_ray {
+    double o[3], d[3], most;
+} test_ray;
+
 /* Where a ray is in a box, by long doubles; false: nowhere from s = 0 on. */
-static bool in_box(const wf_walk *ray, const wf_bounds *box, long double *from) {
+static bool in_box(const test_ray *ray, const wf_bounds *box, long double *from) {
     long double first = 0, last = HUGE_VALL;
     for (int k = 0; k < 3; k++) {
         long double o = ray->o[k], d = ray->d[k];
@@ -45,23 +49,25 @@ static bool in_box(const wf_walk *ray, const wf_bounds *box, long double *from) 
 }
 
 typedef struct visits {
-    const wf_tree *tree;
     int times[MOST];
     double near[MOST];
 } visits;
 
-static bool visit(void *user, wf_walk *walk, int place, double near) {
-    visits *v = user;
-    int item = v->tree->items[place];
-    (void)walk;
-    v->times[item]++;
-    v->near[item] = near;
-    return true;
+static void go(const wf_tree *tree, const test_ray *r, visits *v) {
+    const wf_walk_ops *ops = wf_walk_ops_best();
+    wf_walk walk;
+    wf_stop stop;
+    ops->begin(tree, r->o, r->d, r->most, &walk);
+    while (ops->next(tree, &walk, &stop)) {
+        int item = tree->items[~stop.what];
+        v->times[item]++;
+        v->near[item] = stop.near;
+    }
 }
 
 /* From inside and outside, along axes and across, through corners of boxes. */
-static wf_walk make_ray(const wf_bounds *boxes, int count, double size, uint32_t *seed) {
-    wf_walk ray = {.most = HUGE_VAL, .meet = visit};
+static test_ray make_ray(const wf_bounds *boxes, int count, double size, uint32_t *seed) {
+    test_ray ray = {.most = HUGE_VAL};
     const wf_bounds *aim = &boxes[(int)draw(seed, 0, count)];
     for (int k = 0; k < 3; k++) {
         ray.o[k] = size * draw(seed, -3, 3);
@@ -72,7 +78,7 @@ static wf_walk make_ray(const wf_bounds *boxes, int count, double size, uint32_t
     return ray;
 }
 
-static int check_ray(const wf_walk *ray, const wf_bounds *boxes, int count, const visits *v) {
+static int check_ray(const test_ray *ray, const wf_bounds *boxes, int count, const visits *v) {
     int idle = 0;
     for (int n = 0; n < count; n++) {
         long double from;
@@ -99,11 +105,10 @@ static void rays_meet_what_they_meet(void **state) {
         wf_tree tree;
         assert_true(wf_tree_new(boxes, items, counts[c], &tree));
         for (int k = 0; k < 200; k++, rays++) {
-            visits v = {.tree = &tree};
-            wf_walk ray = make_ray(boxes, counts[c], size, &seed);
-            ray.user = &v;
-            assert_true(wf_walk_ops_best()->go(&tree, &ray));
-            idle += check_ray(&ray, boxes, counts[c], &v);
+            visits v = {{0}, {0}};
+            test_ray one = make_ray(boxes, counts[c], size, &seed);
+            go(&tree, &one, &v);
+            idle += check_ray(&one, boxes, counts[c], &v);
         }
         wf_tree_free(&tree);
     }
@@ -122,10 +127,9 @@ static void nothing_is_beyond_most(void **state) {
     }
     assert_true(wf_tree_new(boxes, items, 64, &tree));
     for (int most = 1; most < 64; most++) {
-        visits v = {.tree = &tree};
-        wf_walk ray = {.o = {0.75, 0, 0}, .d = {1, 0, 0}, .most = most, .meet = visit};
-        ray.user = &v;
-        assert_true(wf_walk_ops_best()->go(&tree, &ray));
+        visits v = {{0}, {0}};
+        test_ray one = {.o = {0.75, 0, 0}, .d = {1, 0, 0}, .most = most};
+        go(&tree, &one, &v);
         for (int n = 0; n < 64; n++) assert_int_equal(v.times[n], n > 0 && n <= most);
     }
     wf_tree_free(&tree);
@@ -143,7 +147,7 @@ static void shafts_find_what_rays_meet(void **state) {
     assert_true(wf_tree_new(boxes, items, MOST, &tree));
     int64_t all = 0;
     for (int k = 0; k < 300; k++) {
-        wf_walk ray = make_ray(boxes, MOST, 1, &seed);
+        test_ray ray = make_ray(boxes, MOST, 1, &seed);
         wf_bounds o = {{0}, {0}}, d = o;
         bool seen[MOST] = {false};
         long double from;
