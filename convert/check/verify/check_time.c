@@ -73,7 +73,8 @@ wf_verdict wf_check_frames(const wf_subject *s, wf_finding *f) {
     double said = s->metadata.frames > 0
                       ? (double)s->metadata.frames
                       : s->metadata.video_s * wf_ratio_value(s->metadata.rate);
-    if (said <= 0) return wf_open_question(f, "the container does not say");
+    if (said <= 0 || !s->structure.known || s->structure.fragments)
+        return wf_open_question(f, "the container does not say");
     snprintf(is, sizeof is, "%.0f said, %" PRId64 " there", said, s->figures.frames);
     snprintf(should, sizeof should, "as many as are said");
     return wf_say(f, fabs(frames_of(s, said) - (double)s->figures.frames) < 0.5, is, should);

@@ -9,6 +9,10 @@
 wf_verdict wf_check_whole(const wf_subject *s, wf_finding *f) {
     const wf_structure *structure = &s->structure;
     if (*structure->missing) return wf_say(f, false, structure->missing, "all of the file");
+    if (s->streamed) return wf_open_question(f, "whole frames; it does not say how many");
+    if (!structure->known)
+        return wf_open_question(f, "its structure is not read, or does not say where it ends");
+    if (structure->doubt) return wf_open_question(f, structure->doubt);
     if (!structure->ends) return wf_open_question(f, "it does not say where it ends");
     return wf_say(f, true, "to its last byte", "");
 }

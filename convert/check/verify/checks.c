@@ -28,6 +28,7 @@ enum {
     IDENTITY = 1024, /* its container names its material */
     TRACKS = 2048,   /* it says which of its tracks of sound are heard */
     RAW = 4096,      /* its pictures are uncompressed */
+    VIDEO = 8192,    /* it is a file of video, and no pictures */
 };
 
 /* Whether every file is put to a check, or only where the profile has a text, a number or a
@@ -53,7 +54,7 @@ static const struct check {
     const char *by;
 } checks[] = {
     {"reading",    wf_check_reading,    ALWAYS, ALL, "its own header"},
-    {"whole",      wf_check_whole,      STRUCTURE, ALL, "its own structure"},
+    {"whole",      wf_check_whole,      VIDEO, ALL, "its own structure"},
     {"header",     wf_check_header,     STRUCTURE | MXF, ALL, "SMPTE ST 377-1"},
     {"identity",   wf_check_identity,   STRUCTURE | IDENTITY, ALL, "SMPTE ST 330, RFC 9559"},
     {"container",  wf_check_container,  ALWAYS, TEXT(container), "%s"},
@@ -120,6 +121,7 @@ static unsigned nature_of(const wf_subject *s) {
            (s->labels.files ? FILES : 0) | (s->structure.known ? STRUCTURE : 0) |
            (of_profile ? CODEC : 0) | (s->structure.sound_tracks ? TRACKS : 0) |
            (wf_in_words("v210 rawvideo", s->metadata.codec) ? RAW : 0) |
+           (s->contained || s->streamed ? VIDEO : 0) |
            (mxf || !strcmp(s->metadata.container, "matroska") ? IDENTITY : 0);
 }
 

@@ -15,6 +15,7 @@ typedef struct wf_subject {
     const wf_profile *profile; /* NULL: none is asked for */
     wf_metadata metadata;
     bool contained; /* it has a container, and metadata is known */
+    bool streamed;  /* it is frames one after the other: Y4M, v210, uyvy */
     wf_structure structure;
     const char *shared_with; /* another file that says it is the same material; NULL: none */
     wf_figures figures;      /* frames 0: the pixels cannot be read */

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "convert/check/measure.h"
 #include "convert/media/metadata_read.h"
@@ -44,6 +45,14 @@ static bool shows_fields(const wf_figures *f) {
     return f->order_verdict && wf_in_words("tff bff telecined", f->order_verdict);
 }
 
+/* Whole pictures of a size and rate that have a name for fields alone, as those of 601: "625i"
+ * becomes "720x576@25p". */
+static void call_progressive(wf_raster *r) {
+    r->scan = WF_PROGRESSIVE;
+    snprintf(r->name, sizeof r->name, "%dx%d@%.4gp", r->width_px, r->lines,
+             wf_ratio_value(r->frame_rate));
+}
+
 /* Takes the raster that the file says it is. Where its order or scan fits none of the table,
  * one that differs in no more than that is taken; a size that the table does not have stays as
  * it is. Where it does not say how it is scanned, it may be progressive, unless its pixels
@@ -61,7 +70,9 @@ static void take_said_raster(wf_subject *s) {
     const char *name = whole     ? whole
                        : made_up ? raster_but_for_order(&s->raster)
                                  : v->raster.name;
+    bool progressive = !made_up && s->raster.scan == WF_PROGRESSIVE;
     s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why) : known;
+    if (progressive && s->raster.scan == WF_INTERLACED) call_progressive(&s->raster);
 }
 
 static void find_raster(wf_subject *s, const wf_raster *asked) {
@@ -76,15 +87,20 @@ static void find_raster(wf_subject *s, const wf_raster *asked) {
     if (!s->coded_lines) s->coded_lines = s->raster.lines + s->figures.info.interval_lines;
 }
 
-/* Y4M, raw files and pictures say no more than what measuring has seen. */
-static bool is_contained(const wf_video_info *v) {
-    return v->layout == WF_YCBCR && strncmp(v->format, "Y4M ", 4) &&
-           strncmp(v->format, "raw ", 4);
+static bool is_streamed(const wf_video_info *v) {
+    return !strncmp(v->format, "Y4M ", 4) || !strncmp(v->format, "raw ", 4);
+}
+
+/* Raw files say nothing of themselves; others are held to what they say. */
+static bool is_raw(const char *path) {
+    const char *ending = strrchr(path, '.');
+    return ending && (!strcasecmp(ending, ".v210") || !strcasecmp(ending, ".uyvy"));
 }
 
 weft_status wf_verify(const char *path, const wf_verify_options *options, wf_verification *out,
                       weft_error *err) {
-    const wf_measure_options measure = {.of_delivery = true,
+    const wf_measure_options measure = {.raster = is_raw(path) ? options->raster : NULL,
+                                        .of_delivery = true,
                                         .max_memory_bytes = options->max_memory_bytes,
                                         .progress = options->progress,
                                         .progress_user = options->progress_user};
@@ -95,12 +111,13 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     if (status == WEFT_NO_MEMORY || status == WEFT_INTERRUPTED)
         return wf_fail(err, status, "%s", trouble.text);
     s.trouble = status ? trouble.text : NULL;
-    if (status || is_contained(&s.figures.info))
+    s.streamed = !status && is_streamed(&s.figures.info);
+    if (status || s.figures.info.videos)
         s.contained = !wf_metadata_read(path, &s.metadata, &untold);
     if (s.contained) (void)wf_structure_read(path, s.metadata.container, &s.structure, &untold);
     s.shared_with = wf_identities_shared(options->others, path, &s.structure);
     find_raster(&s, options->raster);
-    if (!status && s.figures.info.layout != WF_YCBCR)
+    if (!status && !s.contained && !s.streamed)
         (void)wf_frame_labels_read(path, s.raster.frame_rate, s.figures.info.separate ? 2 : 1,
                                    &s.labels, &untold);
     out->raster = s.raster;

@@ -349,7 +349,8 @@ static wf_rational frame_rate(const reading *r) {
     if (!wf_ratio_given(coded) || !wf_ratio_given(average)) return average;
     double times = wf_ratio_value(average) / wf_ratio_value(coded);
     bool untimed = r->format->iformat->flags & AVFMT_NOTIMESTAMPS;
-    bool fields = r->frame->interlaced_frame && fabs(times - 2) < 1e-6;
+    bool by_fields = !strcmp(r->format->iformat->name, "gxf"); /* its time base is theirs */
+    bool fields = (r->frame->interlaced_frame || by_fields) && fabs(times - 2) < 1e-6;
     bool repeats =
         r->codec->codec_id == AV_CODEC_ID_MPEG2VIDEO && times > 0.79 && times < 0.999;
     bool rounded = fabs(times - 1) < 0.1 && is_customary(coded) && !is_customary(average);

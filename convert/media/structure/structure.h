@@ -35,6 +35,8 @@ typedef struct wf_structure {
     bool known;        /* its container is one of those that are read here */
     bool ends;         /* it says where it ends */
     char missing[128]; /* the first thing that is not there, for people; "": all is */
+    const char *doubt; /* what may not be there; NULL: nothing */
+    bool fragments;    /* MP4 in pieces: its header counts those of the first at most */
     wf_stated stated[WF_STATED_MOST];
     int stated_count;
 

@@ -71,7 +71,8 @@ static void read_movie_header(movie *m, const atom *a) {
     bool wide = v[0] == 1 && wf_extent_read(m->x, a->body, v, sizeof v);
     m->scale = (uint32_t)wf_big_endian(v + (wide ? 20 : 12), 4);
     double length = (double)wf_big_endian(v + (wide ? 24 : 16), wide ? 8 : 4);
-    if (m->scale) wf_state(m->s, "mvhd", length / m->scale, 1.0 / m->scale, true);
+    if (m->scale && !m->fragments)
+        wf_state(m->s, "mvhd", length / m->scale, 1.0 / m->scale, true);
 }
 
 static void read_media_header(movie *m, const atom *a) {
@@ -242,7 +243,7 @@ void wf_structure_mov(const wf_extent *x, wf_structure *s) {
         if (is(&a, "ftyp")) read_brand(&m, &a);
         if (!is(&a, "moov") || m.there) continue;
         m.there = true;
-        m.fragments = has_fragments(x, &a);
+        m.fragments = s->fragments = has_fragments(x, &a);
         descend(&m, a.body, a.next, 0);
     }
     if (at < x->bytes)

@@ -63,9 +63,11 @@ static void check_streams(const wf_extent *x, int64_t at, int step, wf_structure
     for (int i = 0; i < PIDS; i++) of[i] = (pes){NOT_STARTED, true};
     for (; wf_extent_read(x, at, packet, sizeof packet); at += step)
         carry(&of[wf_big_endian(packet + 1, 2) & 0x1fff], packet);
-    for (int i = 0; i < PIDS; i++)
-        if (of[i].left > 0 || (of[i].left == UNBOUNDED && !of[i].stuffed))
-            wf_missing(s, "the last packet of stream %d is not whole", i);
+    for (int i = 0; i < PIDS; i++) {
+        if (of[i].left > 0) wf_missing(s, "the last packet of stream %d is not whole", i);
+        if (of[i].left == UNBOUNDED && !of[i].stuffed)
+            s->doubt = "it does not say where it ends, and its last picture may go on";
+    }
     free(of);
 }
 
