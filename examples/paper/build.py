@@ -10,6 +10,7 @@ import tempfile
 import time
 
 import clips
+from claims import verdict
 from page import Report, asset
 from program import Failure, Weft
 
@@ -36,7 +37,7 @@ def arguments():
 
 
 def opening(ctx):
-    verdicts = [row[3] for row in ctx.report.rows]
+    verdicts = [verdict(row[3]) for row in ctx.report.rows]
     agree, differ = verdicts.count(True), verdicts.count(False)
     told = (f"{len(verdicts)} claims were put to the test. {agree} hold" +
             (f", {differ} come{'s' * (differ == 1)} out otherwise" if differ else "") +
@@ -66,14 +67,19 @@ def closing(ctx, seconds):
             "filters</code> lists them.</p>")
 
 
+def player_of(ctx):
+    return asset("player.html").replace("RASTER", "{} by {}".format(*clips.size(ctx)))
+
+
 def finish(ctx, player, started):
     """The page from all that was handed in."""
     report = ctx.report
     report.section("table", "The paper says, measured here",
                    "“Agrees” and “differs” are comparisons made by the program that wrote this "
-                   "page, on the "
-                   "numbers in the same row.", report.verdicts())
-    head, body = opening(ctx), asset("player.html") if player else ""
+                   "page, on the numbers in the same row, with the thresholds that stand beside them. "
+                   "All of a row's figures must pass for it to agree; one that fails makes it differ. "
+                   "What lies between two thresholds is open.", report.verdicts())
+    head, body = opening(ctx), player_of(ctx) if player else ""
     return report.html(head, body, closing(ctx, time.monotonic() - started), player or "{}")
 
 

@@ -3,8 +3,10 @@ import cmath
 
 import pictures
 from analysis import decibels, PI
-from page import figure, picture, side_by_side, table
+from claims import above, below
+from page import exact, figure, picture, side_by_side, table
 from plots import Plot, axis, number
+from still import middle_columns
 
 # Raster, pixel aspect, field-line and pixel frequency of the subcarrier.
 SYSTEMS = {
@@ -14,6 +16,8 @@ SYSTEMS = {
             # 283.7516 cycles a line: over a field's lines, two frame lines apart, U advances by
             # 0.7516 of a cycle, and V, switched every line, by half a cycle more.
             "down": tuple(sorted(abs(((283.7516 + half + 0.5) % 1 - 0.5) / 2) for half in (0, 0.5)))}}
+# Where sampling folds PAL's subcarrier to: one less its frequency, half less that of its lines.
+PAL_CORNER = (1 - SYSTEMS["pal"]["across"], 0.5 - SYSTEMS["pal"]["down"][0])
 ENCODERS = ("cheap", "filtered")
 APERTURES = ("box", "notch", "shaped")
 
@@ -113,11 +117,10 @@ def nearest(system, clip):
     return found, (sum(m < 12 for m in miss), max(miss, default=99)), max((b[0] for b in found), default=0)
 
 
-def shot(clip, system, note):
-    s = SYSTEMS[system]
-    rows = pictures.color_rows(clip, 0, range(clip.lines))
-    return picture(pictures.png(rows, color=True, filtered=True), f"A gray zone plate as a television shows "
-                   f"it: {note}", note=note, shape=clip.width * s["aspect"] / clip.lines)
+def shot(clip, note):
+    rows = pictures.color_rows(clip, 0, range(clip.lines), *middle_columns(clip))
+    return exact(pictures.png(rows, color=True, filtered=True),
+                 f"A gray zone plate as a television shows it: {note}", note)
 
 
 def close_up(clip, system, note):
@@ -173,7 +176,8 @@ def run(ctx):
 def prose(ctx, clips, careful, figures):
     cross, level, clean, tempered = figures
     notes = {"box": "box", "shaped": "shaped"}
-    four = side_by_side(*(shot(clips[s, a], s, f"<b>{SYSTEMS[s]['name']}</b>, {notes[a]}")
+    corner = {name: diagonal(ctx.figures["apertures"][name], *PAL_CORNER) for name in notes}
+    four = side_by_side(*(shot(clips[s, a], f"<b>{SYSTEMS[s]['name']}</b>, {notes[a]}")
                           for s in SYSTEMS for a in notes), columns=2)
     near = side_by_side(*(close_up(clips[s, a], s, f"<b>{SYSTEMS[s]['name']}</b>, {a}, enlarged")
                           for s in SYSTEMS for a in notes))
@@ -194,10 +198,13 @@ def prose(ctx, clips, careful, figures):
         f"{percent(tempered['shaped'], 0)} pass, the box {percent(tempered['box'], 0)}. The "
         f"bullseyes sink from {number(level['ntsc', 'box'], 3)} to "
         f"{number(level['ntsc', 'shaped'], 3)} of white with NTSC and from "
-        f"{number(level['pal', 'box'], 3)} to {number(level['pal', 'shaped'], 3)} with PAL.",
+        f"{number(level['pal', 'box'], 3)} to {number(level['pal', 'shaped'], 3)} with PAL. Not "
+        f"everywhere, though: PAL's subcarrier has a fold at {number(PAL_CORNER[0], 3)} cycles a pixel and "
+        f"{number(PAL_CORNER[1], 3)} a line, beyond what pixels can hold, and there the shaped aperture lets "
+        f"{number(corner['shaped'], 3)} pass, the box {number(corner['box'], 3)}.",
         table(("False color of the gray "
                "plate", "NTSC, RMS", "99.9 % below", "PAL, RMS", "99.9 % below"), lines),
-        figure("careful", '<div class="row n2">' + shot(careful, "ntsc", "<b>NTSC</b>, box, careful encoder, "
+        figure("careful", '<div class="row n2">' + shot(careful, "<b>NTSC</b>, box, careful encoder, "
                "comb filter") + "<div><p>With the best hardware it is no problem at all. Here the encoder "
                "takes out of the luminance what would be mistaken for color, and the set combs "
                "lines. Of the bullseyes "
@@ -228,6 +235,7 @@ def bullseye_section(ctx, eyes, clips):
 
 def rows(ctx, eyes, figures):
     cross, level, clean, tempered = figures
+    apertures = ctx.figures["apertures"]
     add = ctx.report.row
     found, (count, miss), _ = eyes["ntsc"]
     near = ", ".join(f"({number(x, 0)}, {number(y, 0)})" for _, x, y in found)
@@ -235,14 +243,14 @@ def rows(ctx, eyes, figures):
         "bullseyes, left and right.",
         f"{len(found)} bullseyes at {near} pixels and lines from the middle, within "
         f"{number(miss, 1)} of where "
-        "the subcarrier's frequency is", count == 4 and miss < 4,
+        "the subcarrier's frequency is", [above("bullseyes", count, 3.5, 1.5), below("off by", miss, 4, 12)],
         "Four here, two on each side: this plate is centered in the picture.")
     found, (count, miss), _ = eyes["pal"]
     x, ys = expected("pal", 576)
     add("Fig. 11", "(The paper has NTSC only; the same for PAL.)",
         f"{len(found)} bullseyes, within {number(miss, 1)} of ±{number(x, 0)} pixels and "
         f"±{' or ±'.join(number(y, 0) for y in ys)} "
-        f"lines", count >= 3, "PAL splits them into U and V, which nearly coincide.")
+        f"lines", [above("bullseyes", count, 2.5, 1.5), below("off by", miss, 12, 16)], "PAL splits them into U and V, which nearly coincide.")
     for system in SYSTEMS:
         name = SYSTEMS[system]["name"]
         a, b = level[system, "box"], level[system, "shaped"]
@@ -250,13 +258,23 @@ def rows(ctx, eyes, figures):
             f"bullseyes {number(a, 3)} and {number(b, 3)} ({number(decibels(b / a), 1)} dB); whole "
             "picture "
             f"{percent(cross[system, 'box']['rms'])} and {percent(cross[system, 'shaped']['rms'])} "
-            f"RMS", b < 0.7 * a,
+            "RMS", [below("bullseyes, <i>shaped</i> over <i>box</i>", b / a, 0.7, 0.9),
+                    below("picture", cross[system, "shaped"]["rms"] / cross[system, "box"]["rms"], 0.9, 1)],
             f"To {number(100 * b / a, 0)} % in the bullseyes. How great that is, is a matter of "
             "taste.")
     add("§6", "It does so because its shape attenuates diagonal frequencies.",
         f"response at the NTSC subcarrier: box {number(tempered['box'], 3)}, notch "
         f"{number(tempered['notch'], 3)}, "
-        f"shaped {number(tempered['shaped'], 3)}", tempered["shaped"] < tempered["notch"] < tempered["box"])
+        f"shaped {number(tempered['shaped'], 3)}", [
+            below("<i>notch</i> over <i>box</i>", tempered["notch"] / tempered["box"], 0.95, 1),
+            below("<i>shaped</i> over <i>notch</i>", tempered["shaped"] / tempered["notch"], 0.95, 1)])
+    corner = {name: diagonal(apertures[name], *PAL_CORNER) for name in APERTURES}
+    add("§6", "(Not in the paper: the same where PAL's subcarrier has its fold, at "
+        f"{number(PAL_CORNER[0], 3)} cycles a pixel and {number(PAL_CORNER[1], 3)} a line.)",
+        f"response there: box {number(corner['box'], 3)}, notch {number(corner['notch'], 3)}, "
+        f"shaped {number(corner['shaped'], 3)}",
+        [below("<i>shaped</i> over <i>box</i>", corner["shaped"] / corner["box"], 1)],
+        "What folds there is finer than pixels and lines, and <i>shaped</i> lets more of it pass.")
     add("§6", "With the best encoding hardware it is not generally a problem, even in this pattern.",
         f"strongest false color with a careful encoder {number(clean['ntsc'], 4)} (NTSC), "
-        f"{number(clean['pal'], 4)} (PAL)", max(clean.values()) < 0.01)
+        f"{number(clean['pal'], 4)} (PAL)", [below("strongest", max(clean.values()), 0.01, 0.02)])

@@ -3,6 +3,7 @@ import cmath
 
 import pictures
 from analysis import crossing, edge_width, PI
+from claims import above, below
 from page import figure, picture, side_by_side
 from plots import Plot, axis, number
 
@@ -167,26 +168,30 @@ def rows(ctx, found, edges, width, film):
         f"fields apart for the eye that follows: {number(split, 2)} px by fields, "
         f"{number(split_whole, 1)} px by frames; frozen {number(frozen, 1)} and "
         f"{number(frozen_whole, 2)}",
-        split < 0.3 < split_whole and frozen_whole < 0.3 < frozen)
+        [below("followed, by fields", split, 0.3, 0.6), above("followed, by frames", split_whole, 1, 0.6),
+         below("frozen, by frames", frozen_whole, 0.3, 0.6), above("frozen, by fields", frozen, 1, 0.6)])
     add("§4", "Temporal prefiltering removes judder.",
         f"strobing {number(strobe[0], 2)} at an instant, {number(strobe[0.5], 2)} at half a field, "
-        f"{number(strobe[1], 3)} at one", strobe[1] < 0.05 < strobe[0])
+        f"{number(strobe[1], 3)} at one", [
+            above("at an instant", strobe[0], 0.2, 0.1), below("one field", strobe[1], 0.05, 0.1)])
     add("§4", "For the eye that follows, blur looks like a smear.",
         f"edge {number(width[0], 1)} px wide at an instant, {number(width[0.5], 1)}, "
         f"{number(width[1], 1)} "
-        f"and {number(width[2], 1)} with 1/2, 1 and 2 fields", width[0] < width[0.5] < width[1] < width[2])
+        f"and {number(width[2], 1)} with 1/2, 1 and 2 fields", [
+            above("1/2 field over an instant", width[0.5] / width[0], 1.1, 1),
+            above("1 over 1/2", width[1] / width[0.5], 1.1, 1), above("2 over 1", width[2] / width[1], 1.1, 1)])
     add("§4", "Filters that span many frames give unacceptable blur.",
         f"four fields: edge {number(width[4], 1)} px wide, strobing {number(strobe[4], 2)}; one "
         "field: "
-        f"{number(width[1], 1)} px, {number(strobe[1], 2)}", width[4] > 3 * width[1])
+        f"{number(width[1], 1)} px, {number(strobe[1], 2)}", [above("four fields over one", width[4] / width[1], 3, 2)])
     add("§4", "Judder is less serious in video than in motion pictures.",
         f"for the following eye: {number(film[0.5]['blur'], 1)} px at 24 frames, "
         f"180\N{DEGREE SIGN}, against {number(width[0.5], 1)} px at 60 fields, half a field; "
         f"strobing of the resting eye {number(film[0.5]['strobe'], 2)} and "
         f"{number(strobe[0.5], 2)}, but images "
-        f"{number(SPEED * 2.5, 0)} px apart instead of {SPEED}", film[0.5]["blur"] > 2 * width[0.5])
+        f"{number(SPEED * 2.5, 0)} px apart instead of {SPEED}", [above("film over video", film[0.5]["blur"] / width[0.5], 2, 1.2)])
     add("§4", "At 10 turns a minute judder was not apparent without blur.",
         f"a thing at {SPEED} px a field, not the carousel itself: strobing {number(strobe[0], 2)} "
         "for a resting "
         "eye, none for one that "
-        "follows", None, "Measured, judder is there; whether it is apparent only viewers can say.")
+        "follows", (), "Measured, judder is there; whether it is apparent only viewers can say.")

@@ -2,6 +2,7 @@
 import math
 
 from analysis import decibels, mean, spectrum, steps
+from claims import above, below
 from page import figure, side_by_side
 from plots import Plot, axis, number
 
@@ -21,44 +22,111 @@ def signal(clip, fields, x0=0, x1=None):
     return rows
 
 
+# ---- What a display shows ----
+
+ACROSS, DOWN, FADE = 4, 3, 0.14  # places a field and a line; what is left of light after a field
+SPOT = 0.35                      # lines, the standard deviation of a tube's spot
+
+
+def spread(values, step, weights, first):
+    """Impulses `step` places apart, each spread by weights from `first` places before it on."""
+    out = [0.0] * (len(values) * step)
+    for k, value in enumerate(values):
+        if value:
+            for i, weight in enumerate(weights, k * step + first):
+                if 0 <= i < len(out):
+                    out[i] += weight * value
+    return out
+
+
+def displayed(rows):
+    """The light of a tube in height and time, DOWN places a line and ACROSS a field: every line is a spot
+    that lights up when it is drawn and fades."""
+    decay = [FADE ** ((k + 0.5) / ACROSS) for k in range(3 * ACROSS)]
+    reach = 2 * DOWN
+    spot = [math.exp(-0.5 * (k / DOWN / SPOT) ** 2) for k in range(-reach, reach + 1)]
+    wide = [spread(row, ACROSS, decay, 0) for row in rows]
+    return [list(row) for row in zip(*(spread(column, DOWN, spot, -reach) for column in zip(*wide)))]
+
+
+def shown(rows, xs, ys):
+    """The spectrum of what a display makes of lines by fields; axes in cycles a field and a line."""
+    return spectrum(displayed(rows), [x / ACROSS for x in xs], [y / DOWN for y in ys])
+
+
+def spots(picture):
+    """The light of a still picture on a tube, DOWN places a pixel and a line."""
+    reach = 2 * DOWN
+    spot = [math.exp(-0.5 * (k / DOWN / SPOT) ** 2) for k in range(-reach, reach + 1)]
+    wide = [spread(row, DOWN, spot, -reach) for row in picture]
+    return [list(row) for row in zip(*(spread(column, DOWN, spot, -reach) for column in zip(*wide)))]
+
+
+# ---- Looking for a pattern ----
+
 def peak(levels, xs, ys, center, reach):
-    """The largest level within reach of center, and where."""
-    return max((levels[j][i], x, y) for i, x in enumerate(xs) if abs(x - center[0]) <= reach[0]
+    """The largest level within reach of center."""
+    return max(levels[j][i] for i, x in enumerate(xs) if abs(x - center[0]) <= reach[0]
                for j, y in enumerate(ys) if abs(y - center[1]) <= reach[1])
 
 
-def likeness(levels, a, b, reach):
-    """Correlation of the surroundings of two points of a spectrum, on decibels."""
-    def patch(at):
-        return [decibels(levels[at[1] + j][at[0] + i], -80) for j in range(-reach[1], reach[1] + 1)
-                for i in range(-reach[0], reach[0] + 1)]
-    p, q = patch(a), patch(b)
-    mp, mq = mean(p), mean(q)
-    norm = math.sqrt(sum((v - mp) ** 2 for v in p) * sum((v - mq) ** 2 for v in q))
-    return sum((v - mp) * (w - mq) for v, w in zip(p, q)) / norm if norm else 0.0
-
-
-def replica(levels, xs, ys, near, reach):
-    """Where the baseband's pattern is found again near a place: x, y, likeness, level in dB."""
-    i0, j0 = len(xs) // 2, len(ys) // 2
+def power(levels, xs, ys, center, directions, reach):
+    """The mean power along rays that start from center, either way, at distances within reach."""
     dx, dy = xs[1] - xs[0], ys[1] - ys[0]
-    i1, j1 = i0 + round(near[0] / dx), j0 + round(near[1] / dy)
-    window = (4, 4)
-    best = (-2,)
-    for j in range(j1 - reach, j1 + reach + 1):
-        for i in range(i1 - reach, i1 + reach + 1):
-            if window[0] <= i < len(xs) - window[0] and window[1] <= j < len(ys) - window[1]:
-                best = max(best, (likeness(levels, (i0, j0), (i, j), window), i, j))
-    alike, i, j = best
-    height = peak(levels, xs, ys, (xs[i], ys[j]), (2 * dx, 2 * dy))[0]
-    base = peak(levels, xs, ys, (0, 0), (2 * dx, 2 * dy))[0]
-    return xs[i], ys[j], alike, decibels(height / base)
+    total = count = 0
+    for ux, uy in directions:
+        for k in range(13):
+            for r in (reach[0] + (reach[1] - reach[0]) * k / 12,):
+                for sign in (-r, r):
+                    i = round((center[0] + sign * ux - xs[0]) / dx)
+                    j = round((center[1] + sign * uy - ys[0]) / dy)
+                    if 0 <= i < len(xs) and 0 <= j < len(ys):
+                        total += levels[j][i] ** 2
+                        count += 1
+    return total / count if count else 0.0
+
+
+class Pattern:
+    """Rays that a scene's spectrum is known to have, by their directions, and the gaps between them.
+    Noise is as strong on the rays as between."""
+
+    def __init__(self, rays, gaps, reach):
+        self.rays, self.gaps, self.reach = rays, gaps, reach
+
+    def stands_out(self, levels, xs, ys, center):
+        """How far the rays stand above the gaps around center, in dB."""
+        on, off = (power(levels, xs, ys, center, which, self.reach) for which in (self.rays, self.gaps))
+        return 10 * math.log10(on / off) if on and off else -120.0
+
+    def found(self, levels, xs, ys, near):
+        """The place near `near` where it stands out most: dB, x, y, and its level against the middle's."""
+        shifts = [k / 80 for k in range(-4, 5)]
+        best = max((self.stands_out(levels, xs, ys, (near[0] + a, near[1] + b)), near[0] + a, near[1] + b)
+                   for a in shifts for b in shifts)
+        top = peak(levels, xs, ys, (0, 0), (0.06, 0.06))
+        return (*best, decibels(peak(levels, xs, ys, near, (0.06, 0.06)) / top))
+
+
+BARS = 5  # at -60, -30, 0, 30 and 60 lines a second
+
+
+def fan():
+    """Bars that move steadily are rays of slope speed over field rate."""
+    slope = lambda lines: (-lines / FIELD_RATE, 1.0)
+    return Pattern([slope(v) for v in (-60, -30, 0, 30, 60)], [slope(v) for v in (-45, -15, 15, 45)], (0.18, 0.4))
+
+
+def star():
+    """Sticks at 15 n + 4 degrees are rays across them; lines are counted downwards."""
+    ray = lambda degrees: (math.cos(math.radians(degrees)), -math.sin(math.radians(degrees)))
+    return Pattern([ray(15 * n + 4) for n in range(12)], [ray(15 * n + 11.5) for n in range(12)], (0.25, 0.42))
 
 
 def add_levels(plot, levels, box, floor=-45):
     """A spectrum in decibels, below its largest value."""
     top = max(map(max, levels))
-    plot.map([[decibels(v / top, floor) for v in row] for row in reversed(levels)], box, floor, 0)
+    plot.map([[decibels(v / top, floor) for v in row] for row in reversed(levels)], box, floor, 0,
+             "level, dB below the strongest")
 
 
 # ---- Figure 1 ----
@@ -122,23 +190,24 @@ def flicker_share(levels, xs, ys):
 def temporal(ctx):
     """Spectra of the fan: aperture or 'progressive' to levels, on axes in cycles a field, a line."""
     xs, ys = steps(-1.25, 1.25, 121), steps(-1.25, 1.25, 101)
-    size, frames = ("72x128", 32) if not ctx.quick else ("72x96", 24)
+    size, frames = ("80x128", 32) if not ctx.quick else ("80x96", 24)
     found, clips = {}, {}
     for aperture in ("notch", "box", "line"):
         clip = ctx.weft.clip("fan", f"{size}@30000/1001i,bff", aperture, frames, tau=0, samples=64,
-                             seconds=2 * frames / FIELD_RATE)
+                             seconds=2 * frames / FIELD_RATE, columns=BARS)
         clips[aperture] = clip
-        found[aperture] = spectrum(signal(clip, 2 * frames), xs, ys)
+        found[aperture] = shown(signal(clip, 2 * frames), xs, ys)
     clip = ctx.weft.clip("fan", f"{size}@60000/1001p", "notch", 2 * frames, tau=0, samples=64,
-                         seconds=2 * frames / FIELD_RATE)
-    found["progressive"] = spectrum(signal(clip, 2 * frames), xs, ys)
+                         seconds=2 * frames / FIELD_RATE, columns=BARS)
+    found["progressive"] = shown(signal(clip, 2 * frames), xs, ys)
     return xs, ys, found, clips, 2 * frames
 
 
 def spatial(ctx):
-    xs = steps(-1.25, 1.25, 101)
-    clip = ctx.weft.clip("sticks", "96x96@30i,tff", "shaped", samples=64)
-    return xs, spectrum(clip.picture(), xs, xs)
+    xs = steps(-1.25, 1.25, 141)
+    clip = ctx.weft.clip("sticks", "160x160@30i,tff", "shaped", samples=64)
+    scaled = [x / DOWN for x in xs]
+    return xs, spectrum(spots(clip.picture()), scaled, scaled)
 
 
 def spatial_plot(weft, levels, xs):
@@ -168,32 +237,28 @@ def line_flicker(ctx):
     return found
 
 
+REPLICAS = ((0.5, 0.5), (1, 0), (0, 1))  # cycles a field, cycles a line
+
+
 def run(ctx):
     xs, ys, found, clips, fields = temporal(ctx)
-    width = clips["notch"].width // 9
-    seconds = field_interval(clips["notch"], fields, 8 * width + 1, 9 * width - 1, 60)
-    places = {near: replica(found["notch"], xs, ys, near, 6) for near in ((0.5, 0.5), (1, 0), (0, 1))}
-    interlaced, plain = [peak(found[name], xs, ys, (0.5, 0.5), (0.06, 0.06))[0] /
-                         peak(found[name], xs, ys, (0, 0), (0.06, 0.06))[0]
-                         for name in ("notch", "progressive")]
+    width = clips["notch"].width // BARS
+    seconds = field_interval(clips["notch"], fields, (BARS - 1) * width + 1, BARS * width - 1, 60)
     shares = {name: flicker_share(found[name], xs, ys) for name in ("line", "box", "notch")}
-    sx, star = spatial(ctx)
-    flat = {near: replica(star, sx, sx, near, 5) for near in ((1, 0), (0, 1))}
+    sx, levels = spatial(ctx)
     stripes = line_flicker(ctx)
-    section(ctx, (xs, ys, found, clips, fields, width), (seconds, plain, shares), (sx, star))
-    rows(ctx, seconds, places, (interlaced, plain), flat)
-    ctx.report.row("§3", "A pattern brighter on every other line flickers at 30 Hz.",
-                   "stripes one line high, light 0.1 and 0.8: the fields differ by "
-                   f"{number(stripes['line'], 3)} through <i>line</i>; by "
-                   f"{number(stripes['box'], 4)}, {number(stripes['notch'], 4)}, "
-                   f"{number(stripes['shaped'], 4)} through <i>box</i>, "
-                   f"<i>notch</i>, <i>shaped</i>", stripes["line"] > 0.5 > 50 * stripes["shaped"])
+    fans = {name: [fan().found(found[name], xs, ys, near) for near in REPLICAS]
+            for name in ("notch", "progressive")}
+    stars = [star().found(levels, sx, sx, near) for near in ((1, 0), (0, 1), (0.5, 0.5), (0.5, 0), (0, 0.5))]
+    section(ctx, (xs, ys, found, clips, fields, width), (seconds, fans["progressive"][0][3], shares), (sx, levels))
+    rows(ctx, seconds, stripes)
+    spectra(ctx.report, fans, stars)
 
 
 def section(ctx, times, figures, stars):
     xs, ys, found, clips, fields, width = times
     seconds, plain, shares = figures
-    first = scan_plot(ctx.weft, clips["notch"], fields, 6 * width + 1, 7 * width - 1)
+    first = scan_plot(ctx.weft, clips["notch"], fields, 3 * width + 1, 4 * width - 1)
     second = side_by_side(
         interlace_plot(ctx.weft, found["notch"], xs, ys, "Measured spectrum of interlaced fields: the fan and "
                        "its replicas", True),
@@ -207,14 +272,16 @@ def section(ctx, times, figures, stars):
         figure("fig-1", first, "<b>Figure 1.</b> Samples of a bar that sinks slowly, as rendered: "
                "each dot is the measured light of one scan line in one field. The bar's path "
                f"between fields says how far apart they are: {number(1000 * seconds, 2)} ms."),
-        "Sampling copies a spectrum to wherever the lattice says. To see that, nine thin bars "
+        "Sampling copies a spectrum to wherever the lattice says. To see that, five thin bars "
         "cross the picture, each at its own speed. A steady speed is a slanted line in the "
-        "spectrum, so together they are a fan, and a fan is easy to find again.",
+        "spectrum, so together they are a fan, and a fan is easy to find again. What is looked at is "
+        "light as a tube shows it: every line of a field lights up as a soft spot, "
+        f"{number(SPOT)} of a line in standard deviation, and after one field {number(100 * FADE)} % is left of it.",
         figure("fig-2", second.replace("row n2", "row n2 plots"),
-               "<b>Figure 2.</b> The measured (t, y) spectrum, 45 dB from light to dark. Left: "
+               "<b>Figure 2.</b> The (t, y) spectrum of the displayed light, 45 dB from light to dark. Left: "
                "interlaced. The fan stands again at 60 Hz, at one cycle a line, and at 30 Hz with "
                "half a cycle a line. Right: the same bars without interlace, where the last one "
-               f"is missing (measured there: {number(decibels(plain), 0)} dB). C marks the color "
+               f"is missing (measured there: {number(plain, 0)} dB). C marks the color "
                "subcarrier of NTSC."),
         "That replica at the upper right is all the trouble with interlace. What a picture has at "
         "half a cycle a line comes back at 30 Hz as coarse flicker. How much of it there is "
@@ -230,28 +297,52 @@ def section(ctx, times, figures, stars):
                "pixel across and a quarter of a cycle a line down. Fine diagonal detail of the "
                "picture itself falls into "
                'them. <a href="#color">Further down</a> they turn into colored bullseyes.</p></div></div>',
-               "<b>Figure 3.</b> The measured (x, y) spectrum of a still picture."))
+               "<b>Figure 3.</b> The (x, y) spectrum of the displayed light of a still picture."))
 
 
-def rows(ctx, seconds, places, levels, flat):
+def rows(ctx, seconds, stripes):
     add = ctx.report.row
     add("Fig. 1", "Odd lines are scanned in one 1/60 s, even lines in the next.",
         f"{number(1000 * seconds, 2)} ms between fields (1/59.94 s is 16.68 ms)",
-        abs(seconds * FIELD_RATE - 1) < 0.01)
-    x, y, alike, level = places[(0.5, 0.5)]
-    ok = abs(x - 0.5) < 0.01 and abs(y - 0.5) < 0.01 and alike > 0.95 and levels[1] < 0.02
-    add("Fig. 2", "Interlaced sampling puts a replica of the spectrum at 30 Hz, 0.5 cycles a line.",
-        f"found at {number(x * FIELD_RATE, 1)} Hz, {number(y, 2)} c/line, level {number(level, 1)} "
-        "dB, "
-        f"correlation {number(alike, 3)}; without interlace {number(decibels(levels[1]), 0)} dB", ok)
-    x, y, alike, level = places[(1, 0)]
-    x2, y2, alike2, level2 = places[(0, 1)]
-    add("Fig. 2", "Further replicas stand at 60 Hz and at 1 cycle a line.",
-        f"{number(x * FIELD_RATE, 1)} Hz, {number(y, 2)} c/line ({number(level, 1)} dB); "
-        f"{number(x2 * FIELD_RATE, 1)} Hz, {number(y2, 2)} c/line ({number(level2, 1)} dB)",
-        abs(x - 1) < 0.01 and abs(y2 - 1) < 0.01 and min(alike, alike2) > 0.95)
-    (x, y, alike, level), (x2, y2, alike2, level2) = flat[(1, 0)], flat[(0, 1)]
-    add("Fig. 3", "In (x, y) the lattice is that of the pixels: no replica between.",
-        f"({number(x, 2)}, {number(y, 2)}) and ({number(x2, 2)}, {number(y2, 2)}) cycles a pixel "
-        f"and a line, {number(level, 1)} and {number(level2, 1)} dB",
-        abs(x - 1) < 0.03 and abs(y2 - 1) < 0.03 and min(alike, alike2) > 0.95)
+        [below("off by, ms", abs(1000 * seconds - 1000 / FIELD_RATE), 0.17)])
+    add("§3", "A pattern brighter on every other line flickers at 30 Hz.",
+        f"stripes one line high, light 0.1 and 0.8: the fields differ by {number(stripes['line'], 3)} through "
+        f"<i>line</i>; by {number(stripes['box'], 4)}, {number(stripes['notch'], 4)}, "
+        f"{number(stripes['shaped'], 4)} through <i>box</i>, <i>notch</i>, <i>shaped</i>",
+        [above("through <i>line</i>", stripes["line"], 0.5, 0.1),
+         *(below(f"through <i>{name}</i>", stripes[name], 0.02, 0.1) for name in ("box", "notch", "shaped"))])
+
+
+def place(found):
+    alike, x, y, level = found
+    return (f"{number(x * FIELD_RATE, 1)} Hz, {number(y, 2)} c/line: rays {number(alike, 0)} dB over the gaps "
+            f"between them, level {number(level, 1)} dB")
+
+
+def stands(name, found, near):
+    """What a replica needs: rays, where they should be. Of noise no rays stand out."""
+    alike, x, y, _ = found
+    return [above(f"{name}, rays over gaps, dB", alike, 6, 4),
+            below(f"{name}, off by", math.hypot(x - near[0], y - near[1]), 0.02, 0.04)]
+
+
+def spectra(report, fans, stars):
+    """The rows of Figures 2 and 3: where the fan and the star are found in displayed light."""
+    first, at60, up = fans["notch"]
+    plain = fans["progressive"][0][3]
+    report.row("Fig. 2", "Interlaced sampling puts a replica of the spectrum at 30 Hz, 0.5 cycles a line.",
+               f"the fan stands again at {place(first)}; without interlace the level there is {number(plain, 0)} dB",
+               [*stands("fan", first, REPLICAS[0]), above("level, dB", first[3], -20, -30),
+                below("without interlace, dB", plain, -40, -30)])
+    report.row("Fig. 2", "Further replicas stand at 60 Hz and at 1 cycle a line.", f"{place(at60)}; {place(up)}",
+               [*stands("60 Hz", at60, REPLICAS[1]), *stands("1 c/line", up, REPLICAS[2]),
+                above("weaker level, dB", min(at60[3], up[3]), -30, -40)])
+    across, down, *between = stars
+    most = max(level for *_, level in between)
+    report.row("Fig. 3", "In (x, y) the lattice is that of the pixels: no replica between.",
+               f"the star stands again at ({number(across[1], 2)}, {number(across[2], 2)}) and "
+               f"({number(down[1], 2)}, {number(down[2], 2)}) cycles a pixel and a line, its rays "
+               f"{number(across[0], 0)} and {number(down[0], 0)} dB over their gaps; half way there at most "
+               f"{number(most, 0)} dB of the middle's level",
+               [*stands("(1, 0)", across, (1, 0)), *stands("(0, 1)", down, (0, 1)),
+                below("half way, dB", most, -35, -30)])

@@ -3,6 +3,7 @@ import html
 import os
 import re
 
+from claims import WORDS, told, verdict
 from pictures import uri
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -13,11 +14,22 @@ def asset(name):
         return file.read()
 
 
+def plain(text):
+    """Text without tags and entities, for those who hear it."""
+    return html.unescape(re.sub(r"<[^>]*>", "", text))
+
+
 def picture(data, alt, kind="", note=None, shape=None):
     """An image of the page. `shape` is its width over its height, where pixels are not square."""
     style = f' style="aspect-ratio:{shape:.4f}"' if shape else ""
-    image = f'<img class="{kind}" src="{uri(data)}" alt="{html.escape(alt, quote=True)}"{style}>'
+    image = f'<img class="{kind}" src="{uri(data)}" alt="{html.escape(plain(alt), quote=True)}"{style}>'
     return f'<div class="picture">{image}' + (f"<p>{note}</p>" if note else "") + "</div>"
+
+
+def exact(data, alt, note=None):
+    """An image whose pixels are the screen's, or whole numbers of them: fine rings that a browser scales
+    would show its own aliases."""
+    return picture(data, alt, "exact", note).replace('"picture"', '"picture whole"', 1)
 
 
 def side_by_side(*items, columns=None):
@@ -47,20 +59,19 @@ class Report:
         body = "".join(part if part.startswith("<") else f"<p>{part}</p>" for part in parts)
         self.sections.append((name, title, body))
 
-    def row(self, where, claim, measured, agrees, why=""):
-        """`agrees` is what a comparison of measured figures gave; None where it is a matter of
-        taste or cannot be told."""
-        self.rows.append((where, claim, measured, agrees, why))
+    def row(self, where, claim, measured, needs, why=""):
+        """`needs` are the thresholds on measured figures; none where it is a matter of taste or cannot
+        be told."""
+        self.rows.append((where, claim, measured, needs, why))
 
     def verdicts(self):
-        words = {True: ("agrees", "agrees"), False: ("differs", "differs"), None: ("open", "open")}
         out = []
-        for where, claim, measured, agrees, why in self.rows:
-            kind, word = words[agrees]
+        for where, claim, measured, needs, why in self.rows:
+            word = WORDS[verdict(needs)]
             why = f'<span class="why">{why}</span>' if why else ""
             out.append(f'<tr><td class="where">{where}</td><td>{claim}</td>'
                        f'<td class="measured">{measured}</td>'
-                       f'<td class="verdict {kind}"><b>{word}</b>{why}</td></tr>')
+                       f'<td class="verdict {word}"><b>{word}</b>{why}{told(needs)}</td></tr>')
         return ('<div class="scroll"><table class="claims"><thead><tr><th scope=col>Where</th>'
                 "<th scope=col>The paper says</th><th scope=col>Measured here</th>"
                 f'<th scope=col>Verdict</th></tr></thead><tbody>{"".join(out)}</tbody></table></div>')
@@ -78,4 +89,4 @@ class Report:
         return asset("page.html").format(style=asset("page.css"), opening=opening,
                                          contents=self.contents(), player=player,
                                          sections=sections, closing=closing, data=data,
-                                         script=asset("player.js"))
+                                         pixels=asset("pixels.js"), script=asset("player.js"))

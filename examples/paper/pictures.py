@@ -6,6 +6,9 @@ import zlib
 from program import GAMMA
 
 
+SIZES = [min(k, 256 - k) for k in range(256)]  # of bytes as signed numbers
+
+
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -15,15 +18,24 @@ def png(rows, color=False, palette=None, filtered=False):
     step = 3 if color else 1
     kind = 2 if color else 3 if palette else 0
     head = struct.pack(">IIBBBBB", len(rows[0]) // step, len(rows), 8, kind, 0, 0, 0)
-    if filtered:  # each byte less the one a pixel before it
-        body = b"".join(b"\1" + row[:step] + bytes((b - a) & 255 for a, b in zip(row, row[step:]))
-                        for row in rows)
+    if filtered:
+        body = b"".join(smallest(above, row, step) for above, row in zip([bytes(len(rows[0]))] + rows, rows))
     else:
         body = b"".join(b"\0" + row for row in rows)
     parts = [b"\x89PNG\r\n\x1a\n", chunk(b"IHDR", head)]
     if palette:
         parts.append(chunk(b"PLTE", bytes(value for entry in palette for value in entry)))
     return b"".join(parts + [chunk(b"IDAT", zlib.compress(body, 9)), chunk(b"IEND", b"")])
+
+
+def smallest(above, row, step):
+    """The row as it is, less what is a pixel before it, or less what is above it, whichever has the smallest
+    bytes: a PNG's filters 0, 1 and 2."""
+    before = bytes(step) + row[:-step]
+    ways = [row] + [bytes((a - b) & 255 for a, b in zip(row, other)) for other in (before, above)]
+    sizes = [sum(map(SIZES.__getitem__, way)) for way in ways]
+    kind = sizes.index(min(sizes))
+    return bytes([kind]) + ways[kind]
 
 
 def uri(data, kind="image/png"):

@@ -9,7 +9,7 @@
   if (!root || !data.clips) return;
 
   var player = {
-    ready: false, playing: false, tick: 0, mode: "crt", rate: 59.94, zoom: 0, clip: null,
+    ready: false, playing: false, tick: 0, mode: "crt", rate: 59.94, zoom: 1, clip: null, dropped: 0, shown: 0,
     panels: [0, 1].map(function (k) {
       return { variant: null, canvas: root.querySelector('canvas[data-panel="' + k + '"]') };
     })
@@ -77,6 +77,8 @@
     var field = player.fieldAt(player.tick);
     root.querySelector(".state").textContent = "frame " + (field >> 1) + ", field " + (field % 2 + 1) +
       (player.parity(field) ? " (lower lines)" : " (upper lines)");
+    root.querySelector(".dropped").textContent = !player.dropped ? "" : player.dropped + " of " +
+      (player.dropped + player.shown) + " fields left out: this browser is not fast enough for what it is to show";
   };
 
   /* ---- Time ---- */
@@ -87,14 +89,19 @@
     if (!player.playing) return;
     if (!started) { started = time; startTick = player.tick; }
     var tick = startTick + Math.floor((time - started) * player.rate / 1000);
-    if (tick !== player.tick) { player.tick = tick; player.draw(); }
+    if (tick !== player.tick) {
+      player.dropped += tick - player.tick - 1;
+      player.shown += 1;
+      player.tick = tick;
+      player.draw();
+    }
     window.requestAnimationFrame(loop);
   }
 
   player.play = function () {
     if (player.playing) return;
     player.playing = true;
-    started = 0;
+    started = player.dropped = player.shown = 0;
     window.requestAnimationFrame(loop);
     told();
   };
@@ -175,15 +182,15 @@
     player.draw();
   };
 
-  player.setRate = function (rate) { player.rate = Number(rate); started = 0; };
+  player.setRate = function (rate) { player.rate = Number(rate); started = player.dropped = player.shown = 0; };
 
   player.setZoom = function (zoom) {
-    player.zoom = Math.max(0, Math.min(4, Number(zoom)));
+    player.zoom = Math.max(1, Math.min(4, Number(zoom)));
     root.querySelector('[data-set="zoom"]').value = String(player.zoom);
+    root.style.setProperty("--raster", player.clip.width * window.exactScale() + "px");
     player.panels.forEach(function (panel) {
-      var room = panel.canvas.parentNode.clientWidth, width = player.clip.width;
-      var fit = room >= width ? width * Math.floor(room / width) : room;
-      panel.canvas.style.width = (player.zoom ? width * player.zoom : fit) + "px";
+      panel.canvas.style.width = player.clip.width * player.zoom * window.exactScale() + "px";
+      panel.canvas.style.height = player.clip.lines * player.zoom * window.exactScale() + "px";
     });
   };
 

@@ -44,9 +44,10 @@ class Plot:
     def word(self, x, y, text, anchor="start", dx=7, dy=4, series=0):
         self.add("word", at=[x, y], text=text, anchor=anchor, shift=[dx, dy], series=series)
 
-    def map(self, values, box, least=None, most=None):
-        """Values as colors; box is (x0, x1, y0, y1), the first row being at y0."""
-        self.add("map", values=values, box=list(box), range=None if least is None else [least, most])
+    def map(self, values, box, least=None, most=None, text=None):
+        """Values as colors; box is (x0, x1, y0, y1), the first row being at y0. Text says what they are, at
+        a bar of the colors."""
+        self.add("map", values=values, box=list(box), range=None if least is None else [least, most], text=text)
 
     def ring(self, x, y, text, radius=13, below=False, dashed=False):
         self.add("ring", at=[x, y], text=text, radius=radius, below=below, dashed=dashed)

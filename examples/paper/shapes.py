@@ -87,7 +87,7 @@ def shape_plot(weft, shape, label, title, reach, size=(320, 300)):
     rows = [row[int((half - reach[0]) * FINE):int((half + reach[0]) * FINE)]
             for row in shape[int((half - reach[1]) * FINE):int((half + reach[1]) * FINE)]]
     low = min(0, min(map(min, rows)))
-    plot.map(rows, (-reach[0], reach[0], -reach[1], reach[1]), low, top)
+    plot.map(rows, (-reach[0], reach[0], -reach[1], reach[1]), low, top, "weight")
     for k in range(1 - reach[1], reach[1] + 1):
         plot.add("rule", y=k - 0.5)
     return plot.svg(weft)

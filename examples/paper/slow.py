@@ -2,6 +2,7 @@
 import pictures
 import still
 from analysis import crossing, rms, strongest
+from claims import above, below
 from page import figure, picture
 from plots import THEORY, Plot, axis, number
 
@@ -123,7 +124,7 @@ def run(ctx):
                    f"the wobble at 30 lines/s has {number(frequency, 1)} Hz and "
                    f"{number(amount, 2)} lines; at rest {number(rest['hertz'], 0)} Hz; at 60 "
                    "lines/s it does not swing",
-                   12 < frequency < 18 and amount > 0.2,
+                   [above("Hz", frequency, 12, 10), below("Hz", frequency, 18, 22), above("lines", amount, 0.2, 0.1)],
                    "That eyes are most sensitive near 15 Hz is not measured here.")
     ctx.report.row("§5", "Less vertical sharpness is the remedy.",
                    f"wobble at 30 lines/s: {number(calm['line'], 3)}, {number(calm['box'], 3)}, "
@@ -131,5 +132,7 @@ def run(ctx):
                    "light through <i>line</i>, <i>box</i>, <i>notch</i>, <i>shaped</i>; of the "
                    f"contour {number(contour['line'], 2)}, {number(contour['box'], 2)}, "
                    f"{number(contour['notch'], 2)}, "
-                   f"{number(contour['shaped'], 2)}", calm["line"] > 5 * calm["notch"] and
-                   contour["line"] > contour["box"] >= contour["notch"] - 0.01)
+                   f"{number(contour['shaped'], 2)}", [
+                       above("light, <i>line</i> over <i>notch</i>", calm["line"] / calm["notch"], 5, 2),
+                       above("contour, <i>line</i> less <i>box</i>", contour["line"] - contour["box"], 0.01, 0),
+                       above("contour, <i>box</i> less <i>notch</i>", contour["box"] - contour["notch"], -0.01, -0.03)])

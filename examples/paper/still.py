@@ -1,7 +1,8 @@
 """Figures 8 and 10, line crawl, and the rule the paper doubts: flicker in what does not move."""
 import pictures
 from analysis import correlation, mean, rms
-from page import figure, picture, side_by_side, table
+from claims import above, below
+from page import exact, figure, picture, side_by_side, table
 from plots import Plot, axis, number
 
 RASTER = "525i"
@@ -31,17 +32,24 @@ def moire(clip):
     return spread, correlation(*parts)
 
 
+CROP = 500  # pixels of a plate, around its middle: two fit side by side, pixel by pixel
+
+
+def middle_columns(clip):
+    return (clip.width - CROP) // 2, (clip.width + CROP) // 2
+
+
 def fields(clip, name):
-    shape = clip.width * 10 / 11 / clip.lines
+    """The middle of both fields pixel by pixel, every line twice: fine rings must not be scaled."""
     words = ("field 1, the lower lines", "field 2, the upper lines")
-    return side_by_side(*(picture(pictures.png(pictures.gray_rows(clip, 0, clip.own_lines(n))),
-                                  f"Zone plate through {name}, {words[n]}", note=words[n], shape=shape)
-                          for n in (0, 1)))
+    return side_by_side(*(exact(pictures.png(pictures.enlarge(
+        pictures.gray_rows(clip, 0, clip.own_lines(n), *middle_columns(clip)), 1, 2)),
+        f"Zone plate through {name}, {words[n]}", words[n]) for n in (0, 1)))
 
 
 def flicker_map(clip, block=6):
     """The flicker of measure, half the difference of the fields as a bob display shows them: RMS of
-    blocks as a picture, and of all."""
+    blocks, and of all."""
     rows, own = clip.picture(), clip.parity(0)
     sums = [[0.0] * (clip.width // block) for _ in range(clip.lines // block)]
     total, last = 0.0, clip.lines - 1
@@ -55,7 +63,18 @@ def flicker_map(clip, block=6):
         for k in range(len(line)):
             line[k] += sum(squares[k * block:(k + 1) * block])
     levels = [[(v / block ** 2) ** 0.5 for v in line] for line in sums]
-    return pictures.heat(levels, 0, 0.25), (total / (clip.width * clip.lines)) ** 0.5
+    return levels, (total / (clip.width * clip.lines)) ** 0.5
+
+
+def flicker_plot(weft, levels, name):
+    """The map over the plate's frequencies: the plate has 1/2 cycle a line at its upper and lower edge, and
+    across what its shape makes of that."""
+    wide = 0.5 * 720 / 486 * (10 / 11) ** 2
+    plot = Plot(axis(-wide, wide, "across, cycles a pixel", ticks=(-0.5, 0, 0.5)),
+                axis(-0.5, 0.5, "up and down, cycles a line", ticks=(-0.5, -0.25, 0, 0.25, 0.5)),
+                f"Flicker of a zone plate through {name}, by the frequencies in it", 400, 330)
+    plot.map(levels, (-wide, wide, 0.5, -0.5), 0, 0.25, "flicker, of white")
+    return f'<div>{plot.svg(weft)}<p><b>{name}</b></p></div>'
 
 
 def share(found, name, display="bob", key="rms"):
@@ -115,8 +134,9 @@ def crawl_section(ctx, found):
                    "character generators.",
                    f"still lettering flickers by {percent(share(found, 'line'))} RMS through "
                    f"<i>line</i>, {percent(share(found, 'box'))} through <i>box</i>, "
-                   f"{percent(share(found, 'shaped'))} through "
-                   "<i>shaped</i>", share(found, "line") > 1.5 * share(found, "shaped"))
+                   f"{percent(share(found, 'shaped'))} through <i>shaped</i>",
+                   [above("<i>line</i>, %", 100 * share(found, "line"), 2, 1),
+                    above("<i>line</i> over <i>shaped</i>", share(found, "line") / share(found, "shaped"), 1.5, 1)])
 
 
 # ---- Figure 8 ----
@@ -138,11 +158,11 @@ def figure_8(ctx, found, line, notch):
         f"{percent(share(found, 'line', 'bob', 'share'), 1)} of the picture flickers by more than "
         "2 %.",
         figure("flicker-maps", side_by_side(*(
-            picture(maps[name][0], f"Map of flicker through {name}",
-                    note=f"<b>{name}</b>: {percent(share(found, name))} RMS", shape=720 * 10 / 11 / 486)
-            for name in maps)), "Where it flickers: half the difference of both fields, as a display shows "
-            "them that fills in lines. From black, nothing, to pale yellow, a quarter of white. "
-            f"Computed by the page's own program, the first comes to {percent(maps['line'][1])} "
+            flicker_plot(ctx.weft, maps[name][0], name) for name in maps)).replace("row n3", "row n3 plots"),
+            "Where it flickers: half the difference of both fields, as a display shows them that fills in "
+            "lines, over the frequencies of the plate: " +
+            ", ".join(f"{percent(share(found, name))} RMS through <code>{name}</code>" for name in maps) +
+            ". Computed by the page's own program, the first comes to {percent(maps['line'][1])} "
             "RMS."))
     ctx.figures["maps"] = maps
     ctx.report.row("Fig. 8", "The fields of a still zone plate through a box one line high are complementary "
@@ -150,14 +170,18 @@ def figure_8(ctx, found, line, notch):
                    f"correlation of the fields near half a cycle a line {number(line[1], 3)}, each "
                    f"of {number(line[0], 3)} RMS; flicker of the picture "
                    f"{percent(share(found, 'line'))} RMS",
-                   line[1] < -0.9 and line[0] > 0.05)
+                   [below("correlation", line[1], -0.9, -0.5), above("RMS of each", line[0], 0.05, 0.02)])
     ctx.report.row("Fig. 10", "Through the notch filter the flickering Moiré is nearly absent.",
                    f"Moiré {number(notch[0], 4)} RMS ({number(line[0] / notch[0], 0)} times less); "
                    f"flicker {percent(share(found, 'notch'))} against "
                    f"{percent(share(found, 'line'))}, over 2 %: "
                    f"{percent(share(found, 'notch', 'bob', 'share'), 2)} of the picture against "
                    f"{percent(share(found, 'line', 'bob', 'share'), 1)}",
-                   notch[0] < 0.15 * line[0] and share(found, "notch") < 0.5 * share(found, "line"),
+                   [below("Moiré, <i>notch</i> over <i>line</i>", notch[0] / line[0], 0.15, 0.3),
+                    below("flicker, <i>notch</i> over <i>line</i>", share(found, "notch") / share(found, "line"),
+                          0.5, 0.75),
+                    below("picture over 2 %, <i>notch</i> over <i>line</i>",
+                          share(found, "notch", "bob", "share") / share(found, "line", "bob", "share"), 0.5, 0.75)],
                    "The Moiré is. What still flickers is of middling fineness, between the zeros.")
 
 
@@ -191,8 +215,12 @@ def rule(ctx, found, letters):
                    f"edge through <i>line</i>: wobble {number(still, 2)} lines RMS at rest, "
                    f"{number(at30, 2)} at 30 lines/s; still zone plate "
                    f"{percent(share(found, 'line'))}, lettering "
-                   f"{percent(share(letters, 'line'))}", still > 0.5 * at30 and
-                   share(found, "line") > 1.5 * share(found, "shaped"))
+                   f"{percent(share(letters, 'line'))}",
+                   [above("wobble at rest over that at 30 lines/s", still / at30, 0.5, 0.25),
+                    above("plate, <i>line</i> over <i>shaped</i>", share(found, "line") / share(found, "shaped"),
+                          1.5, 1.1),
+                    above("lettering, <i>line</i> over <i>shaped</i>",
+                          share(letters, "line") / share(letters, "shaped"), 1.5, 1.1)])
 
 
 def run(ctx):

@@ -5,6 +5,7 @@ import math
 
 import pictures
 from analysis import PI, edge_width, mean, sinc
+from claims import above, below
 from page import figure, picture, side_by_side
 from plots import THEORY, Plot, axis, number
 
@@ -130,12 +131,15 @@ def wheel_section(ctx, found):
                    f"at {number(RPM[example], 0)} turns a minute it seems to turn at "
                    f"{number(found[0][example][0], 0)} (sampling says "
                    f"{number(apparent(RPM[example]), 0)})",
-                   found[0][example][0] < 0)
+                   [below("turns a minute as seen", found[0][example][0], -10, 0),
+                    below("off what sampling says", abs(found[0][example][0] - apparent(RPM[example])), 5, 20)])
     ctx.report.row("§4", "Rapid periodic motion demands temporal antialiasing.",
                    f"contrast of spokes that turn the wrong way: {number(100 * left[0], 0)} % at "
                    f"an instant, {number(100 * left[0.5], 0)} %, {number(100 * left[1], 0)} %, "
                    f"{number(100 * left[2], 0)} % "
-                   "with 1/2, 1 and 2 fields", left[0] > 0.9 > 0.6 > left[1] > left[2])
+                   "with 1/2, 1 and 2 fields", [
+                       above("an instant", left[0], 0.9, 0.7), below("one field", left[1], 0.6, 0.8),
+                       below("two over one", left[2] / left[1], 0.9, 1)])
 
 
 # ---- A width for each object ----
@@ -166,7 +170,7 @@ def own_section(ctx):
     ctx.report.row("§7", "Different amounts of temporal filtering for different objects: a future "
                    "consideration.", "asked for 0, 1/2, 1, 2 fields in one picture; streaks measured "
                    f"{', '.join(number(v, 2) for v in lengths)} fields",
-                   all(abs(a - b) < 0.15 for a, b in zip(widths, lengths)), "Done here. A pixel is a "
+                   [below("worst, off by", max(abs(a - b) for a, b in zip(widths, lengths)), 0.15, 0.3)], "Done here. A pixel is a "
                                                                             "sixteenth of a field wide.")
 
 

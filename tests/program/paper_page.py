@@ -5,7 +5,9 @@ With "part" the page is of some experiments only: how much there is of everythin
 """
 import base64
 import json
+import math
 import pathlib
+import random
 import re
 import struct
 import sys
@@ -35,7 +37,7 @@ class Structure(HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.open, self.ids, self.wrong, self.outside, self.unnamed = [], [], [], [], []
+        self.open, self.ids, self.wrong, self.outside, self.alts, self.needs = [], [], [], [], [], []
 
     def handle_starttag(self, tag, attrs):
         given = dict(attrs)
@@ -44,8 +46,10 @@ class Structure(HTMLParser):
             value = given.get(key) or "#"
             if not value.startswith(("#", "data:")):
                 self.outside.append(value)
-        if tag == "img" and not given.get("alt"):
-            self.unnamed.append(self.getpos())
+        if tag == "img":
+            self.alts.append(given.get("alt") or "")
+        if "data-needs" in given:
+            self.needs.append(json.loads(given["data-needs"]))
         if tag not in VOID:
             self.open.append(tag)
 
@@ -66,17 +70,61 @@ def read(text, whole):
     check("tags close as they opened", not page.wrong and not page.open, str(page.wrong[:3]))
     check("ids are given once", len(page.ids) == len(set(page.ids)))
     check("nothing is fetched", not page.outside and "@import" not in text, str(page.outside[:3]))
-    check("pictures have words", not page.unnamed, str(page.unnamed[:3]))
+    unclean = [alt for alt in page.alts if not alt.strip() or re.search(r"[<>&]|\\b(None|nan)\\b", alt)]
+    check("pictures have words without tags", not unclean, str(unclean[:3]))
     for name in IDS if whole else ["player", "table"]:
         check(f"{name} is there", name in page.ids)
     check("no number is missing", not re.search(r"\bnan\b|\binf\b|None", re.sub(
         r"data:image/png;base64,[A-Za-z0-9+/=]+|<script.*?</script>", "", text, flags=re.S)))
 
 
+# ---- Verdicts, told again from figures and thresholds ----
+
+def verdict(needs):
+    """One figure beyond the threshold of differing is enough; all beyond that of agreeing are needed."""
+    differ = [not sign * value > sign * against for _, value, sign, _, against in needs]
+    agree = [sign * value > sign * for_it for _, value, sign, for_it, _ in needs]
+    return "differs" if any(differ) else "agrees" if needs and all(agree) else "open"
+
+
+def thresholds(rows):
+    """Rows as [text of the verdict, needs]: the word follows from what stands beside it."""
+    wrong = [row for row in rows if not row[0].startswith(verdict(row[1]))]
+    check("verdicts follow from their thresholds", not wrong, str(wrong[:2]))
+    untold = [row for row in rows for need in row[1] if need[0].split("<")[0].strip() not in row[0]]
+    check("thresholds stand beside verdicts", not untold, str(untold[:2]))
+    # A need with one threshold both agrees and differs there; with two, one lies beyond the other.
+    loose = [need for _, needs in rows for need in needs if need[2] * need[3] < need[2] * need[4] or
+             not all(map(math.isfinite, need[1:]))]
+    check("no figure can only agree", not loose, str(loose[:2]))
+    claims = [row for row in rows if not row[1]]
+    check("few claims are left to taste", len(claims) <= len(rows) / 8, str(len(claims)))
+
+
+def noise(examples):
+    """Figures 2 and 3 of noise: a test of displayed light that noise passes would be none."""
+    sys.path.insert(0, examples)
+    import claims
+    import lattice
+    from page import Report
+    rng, report = random.Random(1), Report()
+    xs = lattice.steps(-1.25, 1.25, 121)
+    fields = [[rng.random() if y % 2 != n % 2 else 0.0 for n in range(48)] for y in range(96)]
+    fan = lattice.shown(fields, xs, xs)
+    still = [x / lattice.DOWN for x in xs]
+    star = lattice.spectrum(lattice.spots([[rng.random() for _ in range(96)] for _ in range(96)]), still, still)
+    lattice.spectra(report, {name: [lattice.fan().found(fan, xs, xs, near) for near in lattice.REPLICAS]
+                             for name in ("notch", "progressive")},
+                    [lattice.star().found(star, xs, xs, near)
+                     for near in ((1, 0), (0, 1), (0.5, 0.5), (0.5, 0), (0, 0.5))])
+    told = [claims.verdict(row[3]) for row in report.rows]
+    check("noise is not taken for Figures 2 and 3", told == [False] * 3, str(told))
+
+
 # ---- The player's fields, found without it ----
 
 def decode(uri):
-    """Rows of R G B from the page's PNGs: 8 bits, gray or R G B, filters 0 and 1."""
+    """Rows of R G B from the page's PNGs: 8 bits, gray or R G B, filters 0, 1 and 2."""
     data = base64.b64decode(uri.split(",", 1)[1])
     width, lines, _, kind = struct.unpack(">IIBB", data[16:26])
     step, at, body = (3 if kind == 2 else 1), 8, b""
@@ -90,6 +138,8 @@ def decode(uri):
         if raw[y * (step * width + 1)] == 1:
             for k in range(step, len(row)):
                 row[k] = (row[k] + row[k - step]) & 255
+        elif raw[y * (step * width + 1)] == 2 and rows:
+            row = bytearray((a + b) & 255 for a, b in zip(row, rows[-1]))
         rows.append(row)
     return rows, step
 
@@ -168,9 +218,47 @@ def steps(page):
     first, second = page.run(wait % 1), page.run(wait % 1500)
     rate = 1000 * (second[0] - first[0]) / (second[1] - first[1])
     check("it plays at its rate", 40 <= rate <= 60, f"{rate} fields in a second")
+    check("fields that were shown are not told as left out", page.run("weftPlayer.dropped") <= 4 or
+          "left out" in page.run("document.querySelector('.dropped').textContent"))
+    page.run("(function () { var end = performance.now() + 500; while (performance.now() < end) {} })()")
+    page.run(wait % 200)
+    told = page.run("[weftPlayer.dropped, document.querySelector('.dropped').textContent]")
+    check("fields left out are told", told[0] >= 15 and told[1].startswith(f"{told[0]} of "), str(told))
     press("play")
     first, second = page.run(wait % 100)[0], page.run(wait % 200)[0]
     check("it pauses", first == second and page.run("weftPlayer.playing") is False)
+
+
+EXACT = """Array.from(document.querySelectorAll('img.exact, #player canvas')).map(function (i) {
+    var box = i.getBoundingClientRect(), r = window.devicePixelRatio;
+    return [box.width * r / (i.naturalWidth || i.width), box.height * r / (i.naturalHeight || i.height)]; })"""
+
+
+def sizes(page, clip, whole):
+    """Fine rings pixel by pixel, on screens of any density and size."""
+    check("the player shows the whole raster", not whole or [clip["width"], clip["lines"]] == [720, 486])
+    for width, ratio in ((1280, 1), (390, 1), (1280, 1.5), (800, 2)):
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=ratio,
+                  mobile=False)
+        page.run("new Promise(function (done) { window.dispatchEvent(new Event('resize')); "
+                 "requestAnimationFrame(function () { requestAnimationFrame(done); }); })")
+        scales_of = [s for pair in page.run(EXACT) for s in pair]
+        off = [s for s in scales_of if abs(s - max(1, round(s))) > 0.01]
+        check(f"pictures of rings are not scaled at {width} pixels, {ratio} a unit",
+              scales_of and not off, str(off[:4]))
+    page.call("Emulation.clearDeviceMetricsOverride")
+
+
+def scales(page):
+    """Every map of colors has a bar that tells them, and axes with names."""
+    bare = page.run("""Array.from(document.querySelectorAll('.plot > svg')).filter(function (s) {
+        var maps = s.querySelectorAll('image').length;
+        return maps && !s.querySelector('circle[r="4.6"]') && maps < 2; }).length""")
+    check("maps have bars of their colors", bare == 0, str(bare))
+    silent = page.run("""Array.from(document.querySelectorAll('.plot > svg')).filter(function (s) {
+        var words = Array.from(s.querySelectorAll('text')).map(function (t) { return t.textContent; });
+        return words.filter(function (w) { return /[a-z]{2}/.test(w); }).length < 2; }).length""")
+    check("axes have names", silent == 0, str(silent))
 
 
 def look(page, text, whole):
@@ -188,6 +276,9 @@ def look(page, text, whole):
     rows = page.run("""Array.from(document.querySelectorAll('#table .claims tbody tr')).map(function (r) {
         return Array.from(r.cells).map(function (c) { return c.textContent; }); })""")
     check("the table has its rows", len(rows) >= (35 if whole else 1), str(len(rows)))
+    thresholds(page.run("""Array.from(document.querySelectorAll('#table .claims tbody tr')).map(function (r) {
+        var needs = r.querySelector('[data-needs]');
+        return [r.cells[3].textContent, needs ? JSON.parse(needs.dataset.needs) : []]; })"""))
     bad = [r for r in rows if len(r) != 4 or not re.search(r"\d", r[2]) or
            not r[3].startswith(("agrees", "differs", "open"))]
     check("its rows have numbers and verdicts", not bad, str(bad))
@@ -197,6 +288,8 @@ def look(page, text, whole):
     clips = json.loads(re.search(r'id="player-data">(.*?)</script>', text, re.S).group(1))["clips"]
     screens(page, clips if whole else clips[::3])
     steps(page)
+    sizes(page, clips[0], whole)
+    scales(page)
     for width in (390, 1280):
         page.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1,
                   mobile=False)
@@ -209,8 +302,9 @@ def look(page, text, whole):
 def main(path, chromium, part=""):
     whole = part != "part"
     text = pathlib.Path(path).read_text(encoding="utf-8")
-    check("the page is not too large", len(text) < 15e6, str(len(text)))
+    check("the page is not too large", len(text) < 22e6, str(len(text)))
     read(text, whole)
+    noise(str(pathlib.Path(__file__).resolve().parents[2] / "examples" / "paper"))
     with Browser(chromium) as page:
         page.open(pathlib.Path(path).resolve().as_uri())
         look(page, text, whole)
