@@ -97,8 +97,10 @@ static const wf_option_row rows[] = {
         "Whether video is scanned as it says, or progressive whatever it says.", set_choice,
         AT(input_scan), INITIAL),
     ROW(input, CONVERT, "on-missing", "error|hold|black", "error",
-        "What to do about subframes that are needed and absent.", set_choice, AT(on_missing),
-        INITIAL),
+        "What to do about subframes that are needed and absent, and pictures of video that "
+        "cannot "
+        "be decoded.",
+        set_choice, AT(on_missing), INITIAL),
     ROW(input, CONVERT, "fix-nan", "box3|black|none|error", "box3",
         "What NaN and Inf become: the mean of finite neighbors, black, themselves, an error.",
         set_choice, AT(nan_fix), INITIAL),

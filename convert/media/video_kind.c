@@ -9,6 +9,10 @@ weft_status wf_video_no_memory(const wf_video *video, weft_error *err) {
     return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a frame", video->path);
 }
 
+void wf_video_note_trouble(wf_video *video, const weft_error *why) {
+    if (!*video->troubles.missing.text) video->troubles.missing = *why;
+}
+
 size_t wf_video_code_bytes(const wf_video_info *info) {
     return info->bits > 8 ? 2 : 1;
 }

@@ -15,6 +15,7 @@ typedef struct wf_video_options {
     bool want_times;         /* of all pictures: info.times is filled where there are any */
     bool codes_only;         /* wf_video_next is not called */
     bool progressive_only;   /* a later frame that says that it is interlaced is an error */
+    bool mends; /* pictures that cannot be decoded are given as missing, instead of an error */
 } wf_video_options;
 
 /* Where chroma lies among the luma samples that share it: with the first of a line and, where
@@ -68,7 +69,16 @@ typedef struct wf_video_frame {
     bool timed;    /* it says when it is shown: */
     int64_t ticks; /* from any zero, of info.tick_s */
     int64_t lasts; /* ticks; 0: it does not say */
+    bool missing;  /* it could not be decoded, and these are its neighbor's codes */
 } wf_video_frame;
+
+/* What was not as it should be, of the pictures that were given so far. */
+typedef struct wf_video_troubles {
+    weft_error missing; /* where pictures are missing: with the first of them, why; else "" */
+    bool cut;           /* it ended before what it says is its end, which nothing fills up */
+    int64_t complaints; /* of the decoder, which has shown pictures all the same; the first: */
+    int64_t complained_at; /* about this picture */
+} wf_video_troubles;
 
 typedef struct wf_video wf_video;
 
@@ -107,6 +117,7 @@ struct wf_video {
      * wf_video_code_bytes each; NULL: nowhere, the frame is passed over. */
     bool take_codes;
     void *code[3];
+    wf_video_troubles troubles;
     void *state; /* the kind's */
 };
 
@@ -119,6 +130,9 @@ void wf_video_take_bytes(wf_video *video, int plane, int line, const uint8_t *co
 
 /* Whether a frame of info's size is allowed: measuring takes about twelve floats a pixel. */
 weft_status wf_video_check_memory(const wf_video *video, weft_error *err);
+
+/* Notes why a picture is missing, if it is the first. */
+void wf_video_note_trouble(wf_video *video, const weft_error *why);
 
 weft_status wf_video_no_memory(const wf_video *video, weft_error *err);
 

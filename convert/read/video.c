@@ -278,6 +278,14 @@ int64_t wf_video_lasts(const wf_video *video) {
     return video->frame.lasts;
 }
 
+bool wf_video_is_missing(const wf_video *video) {
+    return video->frame.missing;
+}
+
+const wf_video_troubles *wf_video_troubles_of(const wf_video *video) {
+    return &video->troubles;
+}
+
 void wf_video_close(wf_video *video) {
     if (!video) return;
     video->kind->close(video);

@@ -37,6 +37,11 @@ weft_status wf_video_check_whole(const wf_video *video, weft_error *err);
 int64_t wf_video_ticks(const wf_video *video);
 int64_t wf_video_lasts(const wf_video *video);
 
+/* Whether the picture last given is missing: it could not be decoded, and has the codes of the
+ * one before it, or of the first that could. */
+bool wf_video_is_missing(const wf_video *video);
+const wf_video_troubles *wf_video_troubles_of(const wf_video *video);
+
 /* How large plane p is. */
 void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines);
 void wf_video_close(wf_video *video); /* NULL is fine */

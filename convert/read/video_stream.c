@@ -18,6 +18,7 @@ typedef void unpack_fn(const uint8_t *packed, int width_px, uint16_t *const code
 struct stream {
     FILE *file;
     uint8_t *bytes;
+    uint8_t *held;     /* the last frame that is whole, where others may be missing; or NULL */
     uint16_t *code[3]; /* [width] each, of one block */
     size_t frame_bytes, line_bytes;
     unpack_fn *unpack; /* raw formats */
@@ -53,6 +54,7 @@ static void close_stream(wf_video *v) {
     if (!s) return;
     if (s->file && s->file != v->pipe) fclose(s->file);
     free(s->bytes);
+    free(s->held);
     free(s->code[0]);
     free(s);
 }
@@ -104,6 +106,17 @@ static wf_siting siting_of(const wf_y4m *h) {
     return strncmp(h->chroma, "420paldv", 8) ? WF_SITING_CENTER : WF_SITING_TOP_LEFT;
 }
 
+/* A file that was cut off within a frame, which may be missing, has that one too. */
+static int64_t count_y4m(const wf_video *v) {
+    const stream *s = v->state;
+    int64_t frames = wf_y4m_count(&s->header, s->file, s->first_byte);
+    int64_t each = (int64_t)(strlen("FRAME\n") + s->frame_bytes);
+    struct stat about;
+    bool cut = frames < 0 && v->options.mends && !v->pipe && s->first_byte >= 0 &&
+               !fstat(fileno(s->file), &about);
+    return cut ? (about.st_size - s->first_byte + each - 1) / each : frames;
+}
+
 static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err) {
     weft_status status = open_file(v, err);
     if (!status) status = read_header(v, err);
@@ -126,7 +139,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     status = wf_video_check_memory(v, err);
     if (status) return status;
     s->first_byte = ftello(s->file);
-    info->frames = wf_y4m_count(h, s->file, s->first_byte);
+    info->frames = count_y4m(v);
     *label =
         (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
                          .interlaced = h->order && strchr("tbm", h->order), /* m: some are */
@@ -168,24 +181,55 @@ static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
                    v->path, v->frame.index, time_s(v));
 }
 
+static void take_y4m(wf_video *v, const uint8_t *from) {
+    for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
+}
+
+static weft_status go_to(const wf_video *v, int64_t picture, weft_error *err) {
+    const stream *s = v->state;
+    off_t at = s->first_byte + picture * (off_t)(strlen("FRAME\n") + s->frame_bytes);
+    return fseeko(s->file, at, SEEK_SET) ? failed(v, err) : WEFT_OK;
+}
+
+/* A frame that is not there is missing where others tell its place; else it is the end. */
+static weft_status miss_y4m(wf_video *v, bool *more, const weft_error *why, weft_error *err) {
+    stream *s = v->state;
+    *more = v->info.frames >= 0;
+    if (*more && !s->held) return wf_fail(err, WEFT_FAILED, "%s", why->text);
+    wf_video_note_trouble(v, why);
+    v->troubles.cut = v->frame.missing = true;
+    if (!*more) return WEFT_OK;
+    v->troubles.cut = false;
+    take_y4m(v, s->held);
+    return go_to(v, v->frame.index + 1, err);
+}
+
+static weft_status hold_y4m(wf_video *v, weft_error *err) {
+    stream *s = v->state;
+    if (!s->held) s->held = malloc(s->frame_bytes);
+    if (!s->held) return wf_video_no_memory(v, err);
+    memcpy(s->held, s->bytes, s->frame_bytes);
+    return WEFT_OK;
+}
+
 static weft_status y4m_next(wf_video *v, bool *more, weft_error *err) {
     stream *s = v->state;
-    weft_status status = y4m_mark(v, more, err);
-    if (!status && *more) status = read_bytes(v, err);
-    if (status || !*more) return status;
-    const uint8_t *from = s->bytes;
-    for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
-    return WEFT_OK;
+    weft_error why = {""};
+    weft_status status = y4m_mark(v, more, &why);
+    if (!status && *more) status = read_bytes(v, &why);
+    v->frame.missing = false;
+    if (status && v->options.mends) return miss_y4m(v, more, &why, err);
+    if (status) return wf_fail(err, status, "%s", why.text);
+    if (!*more) return WEFT_OK;
+    take_y4m(v, s->bytes);
+    return v->options.mends ? hold_y4m(v, err) : WEFT_OK;
 }
 
 /* Frames that could be counted are all of one length. */
 static weft_status y4m_seek(wf_video *v, int64_t picture, weft_error *err) {
-    stream *s = v->state;
     if (picture >= v->info.frames) return WEFT_OK;
-    off_t at = s->first_byte + picture * (off_t)(strlen("FRAME\n") + s->frame_bytes);
-    if (fseeko(s->file, at, SEEK_SET)) return failed(v, err);
     v->frame.index = picture - 1;
-    return WEFT_OK;
+    return go_to(v, picture, err);
 }
 
 const wf_video_kind wf_video_y4m = {y4m_open, y4m_next, y4m_seek, close_stream};

@@ -41,6 +41,9 @@ typedef struct video_source {
     wf_timing_desc timing;
     wf_resampler *resampler;
     int64_t end_field;
+    wf_rational *missing; /* numbers of pictures that are needed and could not be decoded */
+    size_t missing_count;
+    weft_error cut; /* what the file's structure says of its end, where that may be missing */
 } video_source;
 
 static bool takes(const weft_job *job) {
@@ -57,6 +60,7 @@ static void close_input(wf_run *run) {
     wf_arrivals_free(s->arrivals);
     free(s->times_s);
     free(s->edges);
+    free(s->missing);
     free(s);
     run->source = NULL;
 }
@@ -146,7 +150,8 @@ static weft_status open_video(wf_run *run, weft_error *err) {
                                       .want_times = true,
                                       .codes_only = true,
                                       .progressive_only =
-                                          run->job->input_scan != WF_INPUT_PROGRESSIVE};
+                                          run->job->input_scan != WF_INPUT_PROGRESSIVE,
+                                      .mends = run->job->on_missing != WF_MISSING_ERROR};
     weft_status status = wf_video_open(s->path, &options, &video, err);
     if (status) return status;
     s->info = *wf_video_info_of(video);
@@ -208,10 +213,12 @@ static weft_status settle_pictures(const weft_job *job, video_source *s, weft_er
 }
 
 /* A file that was cut off has fewer pictures than it was to have; whoever names some of those
- * that are there knows it. */
-static weft_status check_whole(const weft_job *job, const video_source *s, weft_error *err) {
-    return job->frames || job->output_end ? WEFT_OK
-                                          : wf_video_window_check_whole(s->window, err);
+ * that are there, or what takes the place of others, knows it. */
+static weft_status check_whole(const weft_job *job, video_source *s, weft_error *err) {
+    if (job->frames || job->output_end) return WEFT_OK;
+    if (job->on_missing == WF_MISSING_ERROR) return wf_video_window_check_whole(s->window, err);
+    (void)wf_video_window_check_whole(s->window, &s->cut);
+    return WEFT_OK;
 }
 
 /* What cannot be done before the end is known. */
@@ -594,6 +601,19 @@ static void begin_ahead(const wf_run *run, const wf_units *units) {
     wf_aside_begin(&s->ahead, read_ahead, s->window);
 }
 
+/* Units come in ascending order, some of them for several groups. */
+static weft_status note_missing(video_source *s, int64_t unit, weft_error *err) {
+    int64_t number = s->picture + unit * s->step;
+    size_t count = s->missing_count;
+    bool told = count && s->missing[count - 1].num >= number;
+    if (told || !wf_video_window_lacks(s->window, number)) return WEFT_OK;
+    wf_rational *grown = realloc(s->missing, (count + 1) * sizeof *grown);
+    if (!grown) return wf_fail(err, WEFT_NO_MEMORY, "no memory for numbers");
+    s->missing = grown;
+    s->missing[s->missing_count++] = wf_ratio(number, 1);
+    return WEFT_OK;
+}
+
 /* Pictures are forgotten that neither these units are nor a later field needs: where fields are
  * not carried, and where frames are left out, what follows may see some of them again. */
 static weft_status prepare(const wf_run *run, const wf_units *units, weft_error *err) {
@@ -610,6 +630,7 @@ static weft_status prepare(const wf_run *run, const wf_units *units, weft_error 
         bool met = wf_video_window_end(s->window) >= 0;
         if (!status && met && units_read(s) <= units->unit[i])
             status = ends_early(s, units->unit[i], err);
+        if (!status) status = note_missing(s, units->unit[i], err);
     }
     if (!status) status = check_end(s, err);
     if (!status) begin_ahead(run, units);
@@ -631,6 +652,8 @@ static void make_rows(const void *picture, int y0, int y1, void *scratch, float 
 static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
                                 weft_error *err) {
     const video_source *s = run->source;
+    bool black = run->job->on_missing == WF_MISSING_BLACK;
+    if (black && wf_video_window_lacks(s->window, s->picture + k * s->step)) return WEFT_OK;
     shown *p = calloc(1, sizeof *p);
     if (!p) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture");
     p->light = s->light;
@@ -666,9 +689,38 @@ static wf_picture_desc describe(const wf_run *run) {
     };
 }
 
-static void tell(const wf_run *run, wf_report *report) {
+static void tell_missing(const wf_run *run, const wf_video_troubles *troubles) {
     const video_source *s = run->source;
+    const char *instead =
+        run->job->on_missing == WF_MISSING_HOLD ? "their neighbors are held" : "they are black";
+    size_t count = s->missing_count;
+    if (!count && !troubles->cut && !*s->cut.text) return;
+    run->report->degraded = true;
+    wf_job_warn(run->job, "%s", *troubles->missing.text ? troubles->missing.text : s->cut.text);
+    if (count)
+        wf_job_warn(run->job, "%s: %zu picture%s missing, the first is %" PRId64 ": %s",
+                    s->path, count, count == 1 ? " is" : "s are", s->missing[0].num, instead);
+}
+
+static void tell_troubles(const wf_run *run, const wf_video_troubles *troubles) {
+    const video_source *s = run->source;
+    tell_missing(run, troubles);
+    if (troubles->complaints && !s->missing_count)
+        wf_job_warn(run->job,
+                    "%s: its decoder complained %" PRId64
+                    " time%s, first about picture %" PRId64
+                    ", and went on: look whether it shows what it should",
+                    s->path, troubles->complaints, troubles->complaints == 1 ? "" : "s",
+                    troubles->complained_at);
+}
+
+static void tell(const wf_run *run, wf_report *report) {
+    video_source *s = run->source;
     report->listed = s->count < 0 ? 0 : s->count;
+    if (run->finished && s->window) tell_troubles(run, wf_video_window_troubles(s->window));
+    report->missing = s->missing;
+    report->missing_count = s->missing_count;
+    s->missing = NULL; /* the report's now */
 }
 
 static const wf_picture_reading reading = {

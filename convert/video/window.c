@@ -7,13 +7,14 @@
 typedef struct slot {
     int64_t number; /* -1: it is free; AHEAD: its picture is not taken yet */
     uint8_t *code;  /* of all planes */
+    bool missing;
 } slot;
 
 /* What decoding one picture more has given. */
 typedef struct outcome {
     weft_status status;
     weft_error error;
-    bool more;
+    bool more, missing;
     int64_t ticks, lasts;
     size_t at; /* its slot */
 } outcome;
@@ -95,7 +96,7 @@ static weft_status add_slot(wf_video_window *w, slot **out, weft_error *err) {
     grown = realloc(w->slot, (w->slots + 1) * sizeof *grown);
     if (!grown) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture of the video");
     w->slot = grown;
-    grown[w->slots] = (slot){-1, malloc(wf_video_window_picture_bytes(w))};
+    grown[w->slots] = (slot){-1, malloc(wf_video_window_picture_bytes(w)), false};
     if (!grown[w->slots].code)
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture of the video");
     *out = &grown[w->slots++];
@@ -126,6 +127,7 @@ static outcome decode(wf_video_window *w, const slot *to) {
     if (o.status || !o.more) return o;
     o.ticks = wf_video_ticks(w->video);
     o.lasts = wf_video_lasts(w->video);
+    o.missing = wf_video_is_missing(w->video);
     return o;
 }
 
@@ -133,6 +135,7 @@ static outcome decode(wf_video_window *w, const slot *to) {
 static weft_status take(wf_video_window *w, const outcome *o, slot *to, bool keep,
                         weft_error *err) {
     if (to) to->number = !o->status && o->more && keep ? w->next : -1;
+    if (to) to->missing = o->missing;
     if (o->status) return wf_fail(err, o->status, "%s", o->error.text);
     if (!o->more) {
         w->end = w->next;
@@ -197,13 +200,26 @@ weft_status wf_video_window_check_whole(const wf_video_window *w, weft_error *er
     return wf_video_check_whole(w->video, err);
 }
 
+static const slot *slot_of(const wf_video_window *w, int64_t number) {
+    for (size_t i = 0; i < w->slots; i++)
+        if (w->slot[i].number == number) return &w->slot[i];
+    return NULL;
+}
+
 bool wf_video_window_find(const wf_video_window *w, int64_t number, const void *plane[3]) {
-    for (size_t i = 0; i < w->slots; i++) {
-        if (w->slot[i].number != number) continue;
-        void *found[3];
-        planes_of(w, w->slot[i].code, found);
-        for (int p = 0; p < 3; p++) plane[p] = found[p];
-        return true;
-    }
-    return false;
+    const slot *found = slot_of(w, number);
+    void *planes[3];
+    if (!found) return false;
+    planes_of(w, found->code, planes);
+    for (int p = 0; p < 3; p++) plane[p] = planes[p];
+    return true;
+}
+
+bool wf_video_window_lacks(const wf_video_window *w, int64_t number) {
+    const slot *found = slot_of(w, number);
+    return found && found->missing;
+}
+
+const wf_video_troubles *wf_video_window_troubles(const wf_video_window *w) {
+    return wf_video_troubles_of(w->video);
 }

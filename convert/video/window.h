@@ -24,6 +24,10 @@ int64_t wf_video_window_end(const wf_video_window *window);
 int64_t wf_video_window_ticks(const wf_video_window *window);
 int64_t wf_video_window_lasts(const wf_video_window *window);
 
+/* Whether a picture that is kept is missing (wf_video_is_missing). */
+bool wf_video_window_lacks(const wf_video_window *window, int64_t number);
+const wf_video_troubles *wf_video_window_troubles(const wf_video_window *window);
+
 /* Forgets the pictures before `number`. */
 void wf_video_window_forget(wf_video_window *window, int64_t number);
 

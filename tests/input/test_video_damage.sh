@@ -64,6 +64,73 @@ for place in 20000 20064 20128 20192 20256 20320; do spoilt b.ts bad.ts $place &
 mv b.ts bad.ts
 check "H.264" stops "frame [0-9]* ([0-9.]* s)" bad.ts
 
+check "a pipe of MXF, whose last picture has no time" exits 0 weft convert <(cat m.mxf) $box -o o.y4m
+
+# ---- Missing ----
+
+# missing: which pictures the report says are missing.
+missing() { python3 -c "import json; print(*json.load(open('r.json'))['input']['missing'])"; }
+# lacking HOW LIST FILE [OPTION..]: status 3, and those pictures are missing.
+lacking()
+{
+    local how=$1 list=$2 file=$3
+    shift 3
+    exits 3 weft convert "$file" ${box/-q/} "$@" --on-missing $how --report r.json -o o.y4m || return 1
+    [ "$(missing)" = "$list" ] || { echo "missing: $(missing)"; return 1; }
+}
+# replaced FIRST LAST: held.y4m, in which these pictures of s.mkv are the one before them.
+replaced()
+{
+    quiet_ffmpeg -i s.mkv s.y4m && python3 - "$@" <<'END'
+import sys
+data, (first, last) = open("s.y4m", "rb").read(), map(int, sys.argv[1:])
+begin = data.index(b"FRAME")
+each = (len(data) - begin) // 100
+frames = [data[begin + i * each:begin + (i + 1) * each] for i in range(100)]
+frames[first:last + 1] = [frames[first - 1]] * (last + 1 - first)
+open("held.y4m", "wb").write(data[:begin] + b"".join(frames))
+END
+}
+all="--raster 64x32@100p" # every picture is needed
+coded s.mkv -c:v ffv1 -level 3 -slicecrc 1 -g 1 -pix_fmt yuv444p
+spoilt s.mkv bad.mkv 200000
+exits 3 weft convert bad.mkv ${box/-q/} $all --on-missing hold --report r.json -o o.y4m
+lost=$(missing)
+check "one picture is lost" eval '[[ $lost =~ ^[0-9]+$ ]]'
+check "it is said why" says "about frame $lost ("
+check "and what is there" says "1 picture is missing, the first is $lost: their neighbors are held"
+check "the one before" replaced $lost $lost
+check "is shown" exits 0 weft convert held.y4m $box $all -o o2.y4m
+check "in its place" cmp o.y4m o2.y4m
+check "in chunks too" eval 'for c in 1 2 3; do "$WEFT" convert bad.mkv $box $all --on-missing hold --chunk $c/3 -o c$c.y4m; done; cat c?.y4m | cmp - o.y4m'
+check "black" lacking black $lost bad.mkv $all
+check "is black" eval 'python3 -c "
+data = open(\"o.y4m\", \"rb\").read(); begin = data.index(b\"FRAME\"); each = (len(data) - begin) // 100
+frame = data[begin + $lost * each + 6:begin + ($lost + 1) * each]
+assert set(frame[:64 * 32]) == {16} and set(frame[64 * 32:]) == {128}"'
+check "a pipe has the same" lacking hold $lost <(cat bad.mkv) $all
+check "cut" cmp o.y4m o2.y4m
+spoilt s.mkv bad.mkv 2000
+check "the first" lacking hold 0 bad.mkv $all
+check "is the one after it" python3 -c 'd = open("o.y4m", "rb").read().split(b"FRAME\n"); assert d[1] == d[2]'
+check "what is needed alone is counted" exits 0 weft convert bad.mkv $box --frames 1-99 --on-missing hold -o o.y4m
+spoilt b.mp4 bad.mp4 5000
+check "H.264" exits 3 weft convert bad.mp4 $box $all --on-missing hold --report r.json -o o.y4m
+# Pictures that look at what was lost are lost with it, and all that are left are right.
+check "and what is left is right" eval 'lost=" $(missing) " && [ "$(missing | wc -w)" -gt 2 ] && weft convert b.mp4 $box $all -o o2.y4m && python3 -c "
+import sys
+bad, good = (open(n, \"rb\").read().split(b\"FRAME\n\") for n in (\"o.y4m\", \"o2.y4m\"))
+lost = {int(n) + 1 for n in sys.argv[1].split()}
+assert len(bad) == len(good) == 101 and all(bad[n] == good[n] for n in range(101) if n not in lost)" "$lost"'
+head -c $(($(stat -c %s f.mkv) / 2)) f.mkv >cut.mkv
+check "cut off" exits 3 weft convert cut.mkv ${box/-q/} --on-missing hold -o o.y4m
+check "it is as long as it says" says "says that it has 100"
+check "that is" [ "$(stat -c %s o.y4m)" = "$(weft convert f.mkv $box -o o2.y4m && stat -c %s o2.y4m)" ]
+check "cut off by a pipe it is as long as it is" exits 3 weft convert <(cat cut.mkv) $box --on-missing hold -o o.y4m
+check "cut Y4M" eval 'head -c $(($(stat -c %s held.y4m) - 100)) held.y4m >cut.y4m; lacking hold 99 cut.y4m $all'
+check "by a pipe" exits 3 weft convert - $box --on-missing hold -o o.y4m <cut.y4m
+check "a line that is not FRAME" eval 'spoilt held.y4m bad.y4m $(($(grep -abo FRAME held.y4m | sed -n 51p | cut -d: -f1) - 10)); lacking hold 50 bad.y4m $all'
+
 # ---- Joined ----
 
 again="-mpegts_flags +initial_discontinuity"
@@ -76,6 +143,8 @@ for other in "wide is.128x32" "full yuv444p" "aspect pixels.of.another.aspect" "
     cat plain.ts "${other% *}.ts" >joined.ts
     check "${other% *} after plain" stops "frame 100 (1.000 s).*${other#* }" joined.ts --subframe-rate 100
 done
+check "may be missing" eval 'cat plain.ts wide.ts >joined.ts; exits 3 weft convert joined.ts $box --subframe-rate 100 --raster 64x32@100p --on-missing hold --report r.json -o o.y4m && [ "$(missing | wc -w)" = 100 ]'
+cat plain.ts tagged.ts >joined.ts
 check "times that begin again" stops "before picture 100 (1.000 s)" joined.ts
 coded fields.ts $again -c:v libx264 -flags +ilme+ildct -x264-params tff=1
 cat plain.ts fields.ts >joined.ts

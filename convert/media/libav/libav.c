@@ -86,11 +86,15 @@ static weft_status open_decoder(wf_video *v, weft_error *err) {
     r->frame = av_frame_alloc();
     if (!r->codec || !r->packet || !r->frame) return wf_video_no_memory(v, err);
     int code = avcodec_parameters_to_context(r->codec, par);
+    r->codec->opaque = r;
     r->codec->thread_count = 0; /* one a core */
+    /* Pictures decoded at once are lost together, as many as there are threads. */
+    if (v->options.mends) r->codec->thread_type = FF_THREAD_SLICE;
     r->codec->err_recognition = AV_EF_CRCCHECK;
-    /* Slices that end early are concealed without a word. Other decoders of FFmpeg 5.1 abort
-     * the program where they are told to stop at errors (MPEG-4). */
-    if (par->codec_id == AV_CODEC_ID_H264) r->codec->err_recognition |= AV_EF_EXPLODE;
+    /* What ends early is concealed without a word. Other decoders of FFmpeg 5.1 hear no more by
+     * that, or abort the program where they are told to stop at errors (MPEG-4). */
+    if (par->codec_id == AV_CODEC_ID_H264 || par->codec_id == AV_CODEC_ID_MJPEG)
+        r->codec->err_recognition |= AV_EF_EXPLODE;
     if (code >= 0) code = avcodec_open2(r->codec, decoder, NULL);
     return code < 0 ? failed(v, "its decoder cannot be opened", code, err) : WEFT_OK;
 }
@@ -103,6 +107,7 @@ weft_status wf_libav_open_stream(wf_video *v, weft_error *err) {
 void wf_libav_close_stream(wf_video *v) {
     reading *r = v->state;
     av_frame_free(&r->frame);
+    av_frame_free(&r->held);
     av_packet_free(&r->packet);
     avcodec_free_context(&r->codec);
     avformat_close_input(&r->format);
@@ -126,7 +131,7 @@ static int64_t frame_in_hand(const wf_video *v) {
 }
 
 /* When it is shown, as far as the mean rate tells. */
-static double time_s(const wf_video *v) {
+double wf_libav_time_s(const wf_video *v) {
     const reading *r = v->state;
     AVRational rate = r->format->streams[r->stream]->avg_frame_rate;
     return rate.num > 0 ? (double)frame_in_hand(v) / av_q2d(rate) : 0;
@@ -135,7 +140,7 @@ static double time_s(const wf_video *v) {
 static weft_status undecodable(const wf_video *v, int code, weft_error *err) {
     char doing[96];
     snprintf(doing, sizeof doing, "it cannot be decoded about frame %" PRId64 " (%.3f s)",
-             frame_in_hand(v), time_s(v));
+             frame_in_hand(v), wf_libav_time_s(v));
     return failed(v, doing, code, err);
 }
 
@@ -184,9 +189,14 @@ static weft_status feed(wf_video *v, weft_error *err) {
         avcodec_send_packet(r->codec, NULL);
         return WEFT_OK;
     }
+    if (code < 0 && v->options.mends) {
+        r->drained = true; /* what was read before may still be decoded */
+        avcodec_send_packet(r->codec, NULL);
+    }
     if (code < 0) return unread(v, code, err);
     if (is_wanted(r)) {
         note_packet(r);
+        r->codec->reordered_opaque = r->packets;
         code = is_damaged(r) ? AVERROR_INVALIDDATA : avcodec_send_packet(r->codec, r->packet);
     }
     av_packet_unref(r->packet);
@@ -213,9 +223,9 @@ weft_status wf_libav_decode(wf_video *v, weft_error *err) {
 static weft_status decode(wf_video *v, weft_error *err) {
     const reading *r = v->state;
     weft_status status = wf_libav_decode(v, err);
-    if (!status && r->have && r->frame->decode_error_flags)
+    if (!status && r->have && wf_libav_is_damaged(r->frame))
         status = wf_fail(err, WEFT_FAILED, "%s: frame %" PRId64 " (%.3f s) is damaged", v->path,
-                         frame_in_hand(v), time_s(v));
+                         frame_in_hand(v), wf_libav_time_s(v));
     return status;
 }
 
@@ -373,9 +383,10 @@ static void describe_stream(wf_video *v, wf_video_label *label) {
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
     reading *r = v->state = calloc(1, sizeof *r);
     if (!r) return wf_video_no_memory(v, err);
-    av_log_set_level(AV_LOG_QUIET);
+    wf_libav_listen();
     weft_status status = wf_libav_open_stream(v, err);
-    if (!status) status = decode(v, err);
+    bool mends = v->options.mends;
+    if (!status) status = mends ? wf_libav_mend_first(v, err) : decode(v, err);
     if (!status && !r->have)
         status = wf_fail(err, WEFT_FAILED, "%s: there is no frame in its video", v->path);
     if (!status) status = describe_pixels(v, err);
@@ -386,6 +397,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     AVRational tick = r->format->streams[r->stream]->time_base;
     v->info.tick_s = wf_ratio(tick.num, tick.den);
     if (v->options.want_times) status = wf_libav_times(v, r->stream, &r->listed, err);
+    if (!status && mends) status = wf_libav_mend_count(v, err);
     if (status) return status;
     r->code = malloc((size_t)v->info.width_px * sizeof *r->code);
     return r->code ? WEFT_OK : wf_video_no_memory(v, err);
@@ -395,9 +407,8 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
 
 /* The codes of a line of a component, which lie one after the other in most formats: bytes or,
  * where they have more than 8 bits, pairs of them; else NULL. */
-static const uint8_t *plain_line(const wf_video *v, int p, int y) {
+static const uint8_t *plain_line(const wf_video *v, const AVFrame *f, int p, int y) {
     const reading *r = v->state;
-    const AVFrame *f = r->frame;
     const AVComponentDescriptor *c = &r->pixels->comp[p];
     const uint8_t *line = f->data[c->plane] + (ptrdiff_t)y * f->linesize[c->plane] + c->offset;
     bool plain = !c->shift && !(r->pixels->flags & AV_PIX_FMT_FLAG_BE);
@@ -406,10 +417,9 @@ static const uint8_t *plain_line(const wf_video *v, int p, int y) {
 }
 
 /* One line of a component: plain ones are taken as they are, or bytes are widened. */
-static const uint16_t *line_codes(const wf_video *v, int p, int y) {
+static const uint16_t *line_codes(const wf_video *v, const AVFrame *f, int p, int y) {
     reading *r = v->state;
-    const AVFrame *f = r->frame;
-    const uint8_t *line = plain_line(v, p, y);
+    const uint8_t *line = plain_line(v, f, p, y);
     if (line && r->pixels->comp[p].depth > 8) return (const uint16_t *)(const void *)line;
     if (line)
         for (int x = 0; x < v->frame.width_px[p]; x++) r->code[x] = line[x];
@@ -420,21 +430,21 @@ static const uint16_t *line_codes(const wf_video *v, int p, int y) {
 }
 
 /* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
-static void take_frame(wf_video *v) {
+static void take_frame(wf_video *v, const AVFrame *f) {
     bool bytes = v->take_codes && wf_video_code_bytes(&v->info) == 1;
     for (int p = 0; p < v->info.planes; p++)
         for (int y = 0; y < v->frame.lines[p]; y++) {
             int from = y + v->info.interval_lines;
-            const uint8_t *line = bytes ? plain_line(v, p, from) : NULL;
+            const uint8_t *line = bytes ? plain_line(v, f, p, from) : NULL;
             if (line)
                 wf_video_take_bytes(v, p, y, line);
             else
-                wf_video_take_codes(v, p, y, line_codes(v, p, from));
+                wf_video_take_codes(v, p, y, line_codes(v, f, p, from));
         }
 }
 
 /* How long the stream states to be; 0 if it does not. Matroska keeps that in a tag. */
-static double stated_length_s(const reading *r) {
+double wf_libav_stated_length_s(const wf_libav_reading *r) {
     const AVStream *stream = r->format->streams[r->stream];
     const AVDictionaryEntry *tag = av_dict_get(stream->metadata, "DURATION", NULL, 0);
     int64_t microseconds;
@@ -447,7 +457,7 @@ static double stated_length_s(const reading *r) {
 
 /* How many packets the file's index counts for the stream; 0 where the number means
  * something else. */
-static int64_t stated_packets(const reading *r) {
+int64_t wf_libav_stated_packets(const wf_libav_reading *r) {
     const char *format = r->format->iformat->name;
     const AVStream *stream = r->format->streams[r->stream];
     if (!strncmp(format, "mov", 3)) return stream->nb_frames;
@@ -463,12 +473,12 @@ static bool ends_in_packet(const reading *r) {
 
 /* libavformat does not tell a file that was cut off from one that has ended, so the length
  * is compared. */
-static weft_status check_end(const wf_video *v, weft_error *err) {
+weft_status wf_libav_check_end(const wf_video *v, weft_error *err) {
     const reading *r = v->state;
-    int64_t packets = stated_packets(r);
+    int64_t packets = wf_libav_stated_packets(r);
     double frame_s = 1 / wf_ratio_value(v->info.raster.frame_rate);
     bool matroska = !strncmp(r->format->iformat->name, "matroska", 8);
-    double length_s = matroska ? stated_length_s(r) : 0;
+    double length_s = matroska ? wf_libav_stated_length_s(r) : 0;
     bool whole = r->packets >= packets && r->end_s + 1.5 * frame_s >= length_s;
     if (whole && !ends_in_packet(r)) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
@@ -477,17 +487,37 @@ static weft_status check_end(const wf_video *v, weft_error *err) {
                    v->path, v->frame.index, (double)v->frame.index * frame_s);
 }
 
+void wf_libav_give_time(wf_video *v, int64_t ticks, int64_t lasts) {
+    reading *r = v->state;
+    wf_libav_note_complaints(v);
+    bool after = v->frame.index && r->last_ticks != AV_NOPTS_VALUE;
+    if (ticks == AV_NOPTS_VALUE && after && wf_ratio_given(v->info.rate))
+        ticks = r->last_ticks +
+                llround(1 / (wf_ratio_value(v->info.rate) * wf_ratio_value(v->info.tick_s)));
+    v->frame.timed = ticks != AV_NOPTS_VALUE;
+    v->frame.ticks = r->last_ticks = ticks;
+    v->frame.lasts = lasts > 0 ? lasts : 0;
+}
+
+/* With pictures that are missing. */
+static weft_status mended_next(wf_video *v, bool *more, weft_error *err) {
+    const AVFrame *shown = NULL;
+    weft_status status = wf_libav_mend_next(v, &shown, err);
+    *more = !status && shown;
+    if (*more && !(v->take_codes && !v->code[0])) take_frame(v, shown);
+    return status;
+}
+
 static weft_status libav_next(wf_video *v, bool *more, weft_error *err) {
     reading *r = v->state;
+    if (v->options.mends) return mended_next(v, more, err);
     weft_status status = decode(v, err);
     *more = r->have;
     if (status) return status;
-    if (!r->have) return check_end(v, err);
-    status = wf_libav_check_frame(v, time_s(v), err);
-    if (!status && !(v->take_codes && !v->code[0])) take_frame(v);
-    v->frame.timed = r->frame->best_effort_timestamp != AV_NOPTS_VALUE;
-    v->frame.ticks = r->frame->best_effort_timestamp;
-    v->frame.lasts = r->frame->pkt_duration > 0 ? r->frame->pkt_duration : 0;
+    if (!r->have) return wf_libav_check_end(v, err);
+    status = wf_libav_check_frame(v, wf_libav_time_s(v), err);
+    if (!status && !(v->take_codes && !v->code[0])) take_frame(v, r->frame);
+    wf_libav_give_time(v, r->frame->best_effort_timestamp, r->frame->pkt_duration);
     av_frame_unref(r->frame);
     r->have = false;
     return status;

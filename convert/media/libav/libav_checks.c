@@ -74,6 +74,10 @@ static const char *what_changed(const wf_libav_reading *r, const wf_video_option
     return options->progressive_only && f->interlaced_frame ? "is interlaced" : NULL;
 }
 
+bool wf_libav_is_damaged(const AVFrame *frame) {
+    return frame->decode_error_flags || frame->flags & AV_FRAME_FLAG_CORRUPT;
+}
+
 weft_status wf_libav_check_frame(const wf_video *v, double time_s, weft_error *err) {
     const wf_libav_reading *r = v->state;
     const AVFrame *f = r->frame;

@@ -16,6 +16,7 @@ static bool is_told(const wf_video_info *info, int64_t picture) {
 static void forget_frame(wf_libav_reading *r) {
     av_frame_unref(r->frame);
     r->have = false;
+    wf_libav_mend_again(r);
 }
 
 /* Decodes on until the frame that is shown then is in hand. Pictures before the keyframe, which
@@ -25,7 +26,7 @@ static bool decode_to(wf_video *v, int64_t ticks) {
     while (!wf_libav_decode(v, NULL) && r->have) {
         int64_t at = r->frame->best_effort_timestamp;
         bool sound = at != AV_NOPTS_VALUE && r->key_ticks <= ticks &&
-                     (at < r->key_ticks || !r->frame->decode_error_flags);
+                     (at < r->key_ticks || !wf_libav_is_damaged(r->frame));
         if (!sound || at > ticks) return false;
         if (at == ticks) return true;
         forget_frame(r);
@@ -47,10 +48,12 @@ static bool try_from(wf_video *v, int64_t from, int64_t ticks) {
 static weft_status begin_again(wf_video *v, weft_error *err) {
     wf_libav_reading *r = v->state;
     wf_libav_close_stream(v);
+    wf_libav_mend_again(r);
     r->have = r->drained = r->until_key = false;
     r->packets = 0;
     r->end_s = 0;
     v->frame.index = -1;
+    wf_libav_pass_complaints(r);
     return wf_libav_open_stream(v, err);
 }
 
@@ -65,6 +68,7 @@ weft_status wf_libav_seek(wf_video *v, int64_t picture, weft_error *err) {
         if (!try_from(v, from, ticks)) continue;
         r->packets = r->listed;
         v->frame.index = picture - 1;
+        wf_libav_pass_complaints(r);
         return WEFT_OK;
     }
     return begin_again(v, err);
