@@ -32,12 +32,14 @@ typedef struct video_source {
     wf_source_options options; /* of no consequence: nothing is read from files */
     wf_image_info first;
     int64_t picture, step, count; /* unit u is picture + u step; count -1: not known yet */
+    int64_t limit;                /* of a pipe: the units that --frames asks for; 0: all */
     wf_rational stated;           /* units a second, before film is slowed or sped */
     bool keeps_rate;              /* timestamps are held against the rate */
     int64_t first_ticks;          /* of a pipe: when picture 0 is shown */
-    wf_arrivals *arrivals;        /* of a pipe that has timestamps, whose end is not known */
-    wf_rational *times_s;         /* [count + 1], where pictures last unequally long */
-    wf_rational *edges;           /* of these times; NULL: pictures have a rate */
+    int64_t last_ticks, ends; /* when the last that was decoded is shown, and ends; 0: none */
+    wf_arrivals *arrivals;    /* of a pipe that has timestamps, whose end is not known */
+    wf_rational *times_s;     /* [count + 1], where pictures last unequally long */
+    wf_rational *edges;       /* of these times; NULL: pictures have a rate */
     wf_timing_desc timing;
     wf_resampler *resampler;
     int64_t end_field;
@@ -198,6 +200,15 @@ static weft_status select_pictures(const weft_job *job, video_source *s, weft_er
                    job->frames);
 }
 
+/* When pictures of a pipe are shown is known as they come, and so is how many frames they give;
+ * what takes that number before has it by the stated rate. */
+static void settle_limit(const weft_job *job, video_source *s) {
+    bool before = job->chunk_count > 1 || job->dry_run || job->resume;
+    if (before || wf_ratio_given(job->subframe_rate) || !wf_ratio_given(s->info.tick_s)) return;
+    s->limit = s->count;
+    s->count = -1;
+}
+
 static weft_status settle_pictures(const weft_job *job, video_source *s, weft_error *err) {
     int64_t there = s->info.frames;
     s->step = 1;
@@ -206,6 +217,7 @@ static weft_status settle_pictures(const weft_job *job, video_source *s, weft_er
     weft_status status = select_pictures(job, s, err);
     if (status) return status;
     int64_t last = s->picture + (s->count - 1) * s->step;
+    if (there < 0) settle_limit(job, s);
     if (there < 0 || last < there) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE,
                    "%s: --frames %s, and its pictures are numbered 0 to %" PRId64, s->path,
@@ -426,12 +438,14 @@ static weft_status ends_early(const video_source *s, int64_t unit, weft_error *e
     return wf_fail(err, WEFT_FAILED,
                    "%s: it ends after %" PRId64 " pictures, at %.3f s, and %" PRId64
                    " were expected; it was cut off, or --frames asks for more than there are",
-                   s->path, held, at_s, s->picture + (s->count - 1) * s->step + 1);
+                   s->path, held, at_s,
+                   s->picture + ((s->limit ? s->limit : s->count) - 1) * s->step + 1);
 }
 
 /* Times that have come are those of windows from here on. */
 static weft_status take_edges(video_source *s, weft_error *err) {
     int64_t pictures = wf_arrivals_count(s->arrivals);
+    if (s->limit && pictures > s->limit) pictures = s->limit;
     s->timing.edges = wf_arrivals_edges(s->arrivals, &s->timing.edges_from);
     if (wf_resampler_set_edges(s->resampler, s->timing.edges, s->timing.edges_from, pictures))
         return WEFT_OK;
@@ -449,21 +463,44 @@ static weft_status tell_uneven(const wf_run *run, weft_error *err) {
                                      : WEFT_OK;
 }
 
+/* When the picture that was decoded last ends, which the next one may tell again. */
+static void note_end(video_source *s, int64_t ticks, int64_t lasts) {
+    if (!lasts) lasts = s->ends ? ticks - s->last_ticks : 1;
+    s->last_ticks = ticks;
+    s->ends = ticks + lasts;
+}
+
+/* Whether the picture that was decoded last, of any number, keeps to the stated rate. */
+static bool in_step(video_source *s, int64_t ticks) {
+    int64_t picture = wf_video_window_next(s->window) - 1;
+    wf_rational rate = wf_ratio_mul(s->stated, wf_ratio(s->step, 1));
+    if (!picture) s->first_ticks = ticks;
+    return wf_video_in_step(&s->info, rate, picture, ticks - s->first_ticks);
+}
+
+static weft_status untimed(const video_source *s, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: picture %" PRId64 " does not say when it is shown; give "
+                   "--subframe-rate to take all pictures as equally long",
+                   s->path, wf_video_window_next(s->window) - 1);
+}
+
 /* When the picture that was decoded last is shown, of a pipe whose end is not known. */
 static weft_status note_time(const wf_run *run, weft_error *err) {
     video_source *s = run->source;
     int64_t ticks = wf_video_window_ticks(s->window), lasts = wf_video_window_lasts(s->window);
+    int64_t past = wf_video_window_next(s->window) - 1 - s->picture;
     bool was = wf_arrivals_uneven(s->arrivals);
     if (wf_video_window_end(s->window) >= 0) return WEFT_OK;
-    if (ticks == INT64_MIN)
-        return wf_fail(err, WEFT_FAILED,
-                       "%s: picture %" PRId64 " does not say when it is shown; give "
-                       "--subframe-rate to take all pictures as equally long",
-                       s->path, wf_arrivals_count(s->arrivals));
-    weft_status status = wf_arrivals_add(s->arrivals, ticks, lasts, err);
+    if (ticks == INT64_MIN) return untimed(s, err);
+    note_end(s, ticks, lasts);
+    if (!in_step(s, ticks)) wf_arrivals_turn_uneven(s->arrivals);
+    weft_status status =
+        past < 0 || past % s->step ? WEFT_OK : wf_arrivals_add(s->arrivals, ticks, lasts, err);
     bool uneven = wf_arrivals_uneven(s->arrivals);
     if (!status && uneven && !was) status = tell_uneven(run, err);
-    return status || !uneven ? status : take_edges(s, err);
+    bool told = uneven && wf_arrivals_count(s->arrivals);
+    return status || !told ? status : take_edges(s, err);
 }
 
 /* The timestamps of a file have been listed before; those of a pipe come with its pictures. */
@@ -474,12 +511,11 @@ static weft_status check_step(const wf_run *run, weft_error *err) {
     if (s->arrivals) return note_time(run, err);
     if (s->info.frames >= 0 || !s->keeps_rate || ticks == INT64_MIN || picture < 0)
         return WEFT_OK;
-    if (!picture) s->first_ticks = ticks;
-    wf_rational rate = wf_ratio_mul(s->stated, wf_ratio(s->step, 1));
-    if (wf_video_in_step(&s->info, rate, picture, ticks - s->first_ticks)) return WEFT_OK;
+    if (in_step(s, ticks)) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: its pictures do not last equally long: number %" PRId64
-                   ", at %.3f s, is out of step, which a pipe cannot tell before; write a file "
+                   ", at %.3f s, is out of step, which a pipe cannot tell before, and --chunk, "
+                   "--resume and --dry-run count frames before; leave them out, write a file "
                    "first, or give --subframe-rate to take them as equally long",
                    s->path, picture,
                    (double)(ticks - s->first_ticks) * wf_ratio_value(s->info.tick_s));
@@ -517,8 +553,11 @@ static int64_t units_read(const video_source *s) {
     return past <= 0 ? 0 : (past + s->step - 1) / s->step;
 }
 
+/* The unit after the last that is asked for has told already how long that is shown. */
 static weft_status end_times(video_source *s, weft_error *err) {
     if (!s->arrivals || !units_read(s)) return WEFT_OK;
+    if (s->limit && units_read(s) > s->limit) return WEFT_OK;
+    if (s->step > 1) wf_arrivals_last_until(s->arrivals, s->ends);
     weft_status status = wf_arrivals_end(s->arrivals, err);
     return status || !wf_arrivals_uneven(s->arrivals) ? status : take_edges(s, err);
 }
@@ -527,7 +566,9 @@ static weft_status meet_end(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     weft_status status = end_times(s, err);
     if (status) return status;
-    s->timing.subframes = s->count = units_read(s);
+    int64_t units = units_read(s);
+    if (s->limit && units < s->limit) return ends_early(s, units, err);
+    s->timing.subframes = s->count = s->limit ? s->limit : units;
     int64_t frames = frames_of(s, s->count);
     if (frames < 1) return too_few(run, s->count, err);
     wf_resampler_set_end(s->resampler, s->count);
@@ -565,9 +606,10 @@ static weft_status ready(wf_run *run, int64_t field, weft_error *err) {
     weft_status status = wf_aside_end(&s->ahead, err);
     while (!status && s->count < 0) {
         int64_t read = units_read(s), sure = s->arrivals ? read - 1 : read;
+        if (s->limit && read > s->limit) return meet_end(run, err);
         if (sure >= needs(run, field - 1).end && frames_of(s, sure) >= frames) break;
         int64_t keep = first_seen(run, run->setup.first_frame * per_frame);
-        wf_video_window_forget(s->window, keep);
+        wf_video_window_forget(s->window, s->picture + keep * s->step);
         status = decode_to(run, read, keep, err);
         if (!status && wf_video_window_end(s->window) >= 0) return meet_end(run, err);
     }

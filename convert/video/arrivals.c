@@ -107,6 +107,10 @@ static void turn_uneven(wf_arrivals *a) {
     for (int64_t k = a->from; !a->decided && k < a->count; k++) set_time(a, k);
 }
 
+void wf_arrivals_turn_uneven(wf_arrivals *a) {
+    if (!a->uneven) turn_uneven(a);
+}
+
 static bool in_step(const wf_arrivals *a, int64_t number, int64_t ticks) {
     const wf_video_info info = {.tick_s = a->desc.tick_s};
     return wf_video_in_step(&info, a->desc.rate, number, ticks);
@@ -161,6 +165,11 @@ weft_status wf_arrivals_add(wf_arrivals *a, int64_t ticks, int64_t lasts, weft_e
     a->edge[i + 1] = WF_EDGE_UNKNOWN;
     a->count++;
     return check_edge(a, i, err);
+}
+
+void wf_arrivals_last_until(wf_arrivals *a, int64_t ticks) {
+    int64_t last = a->count - 1 - a->from;
+    if (a->count) a->last_lasts = ticks - a->first_ticks - a->ticks[last];
 }
 
 weft_status wf_arrivals_end(wf_arrivals *a, weft_error *err) {

@@ -26,8 +26,15 @@ void wf_arrivals_free(wf_arrivals *arrivals); /* NULL is fine */
 weft_status wf_arrivals_add(wf_arrivals *arrivals, int64_t ticks, int64_t lasts,
                             weft_error *err);
 
+/* A picture that is none of these is not in step: they last unequally long as well. */
+void wf_arrivals_turn_uneven(wf_arrivals *arrivals);
+
 /* After the last picture, once: it ends as it says, else it lasts as the one before. */
 weft_status wf_arrivals_end(wf_arrivals *arrivals, weft_error *err);
+
+/* Before wf_arrivals_end, where pictures that were left out follow the last: when the last of
+ * them ends, in ticks. */
+void wf_arrivals_last_until(wf_arrivals *arrivals, int64_t ticks);
 
 /* What has been told is used now: it will not change. */
 void wf_arrivals_decide(wf_arrivals *arrivals);

@@ -24,7 +24,14 @@ weft convert uneven.mkv $box -o u.y4m
 check "uneven times of a pipe" exits 0 weft convert <(cat uneven.mkv) $box -o p.y4m --report -
 check "are those of a file" cmp u.y4m p.y4m
 check "and are told" value "d['input']['rate'] == {'value': 'irregular', 'reason': 'file'}"
-check "with named pictures" fails "out of step" weft convert <(cat uneven.mkv) $box --frames 10-59 -o no.y4m
+for some in 10-59 0-98x2 1-99 7-98x3 20-99x2; do
+    check "named pictures of a file" exits 0 weft convert uneven.mkv $box --frames $some -o u.y4m
+    check "by a pipe" exits 0 weft convert <(cat uneven.mkv) $box --frames $some -o p.y4m --report -
+    check "are the same ($some)" cmp u.y4m p.y4m
+    check "and counted" value "d['input']['listed'] == $(python3 -c "a, _, s = '$some'.partition('x'); b, e = a.split('-'); print(len(range(int(b), int(e) + 1, int(s or 1))))")"
+done
+check "more than there are" fails "ends after 100 pictures.* 120 were expected" weft convert <(cat uneven.mkv) $box --frames 10-119 -o no.y4m
+check "in a chunk" fails "out of step.*--chunk" weft convert <(cat uneven.mkv) $box --frames 10-59 --chunk 1/2 -o no.y4m
 check "they must be even, and when" says "0.006 s"
 # Even for a second, then a pause of .3 s, and twice as fast; windows that overlap and that are instants.
 quiet_ffmpeg -i turns.y4m -vf "settb=1/90000,setpts=N*900+gte(N\,50)*27000-gte(N\,50)*(N-50)*450" -fps_mode passthrough \
@@ -34,6 +41,9 @@ for how in "--aperture box --temporal-width 1" "--aperture line --temporal-width
     check "a pause" exits 0 weft convert late.ts $box $how -o u.y4m
     check "by a pipe" exits 0 weft convert <(cat late.ts) $box $how -o p.y4m
     check "is the same ($how)" cmp u.y4m p.y4m
+    check "some of it" exits 0 weft convert late.ts $box $how --frames 31-90x2 -o u.y4m
+    check "by a pipe" exits 0 weft convert <(cat late.ts) $box $how --frames 31-90x2 -o p.y4m
+    check "are the same ($how)" cmp u.y4m p.y4m
 done
 check "frames of it" exits 0 weft convert late.ts $box --output-frames 10-20 -o u.y4m
 check "by a pipe" exits 0 weft convert <(cat late.ts) $box --output-frames 10-20 -o p.y4m
