@@ -71,6 +71,7 @@ filters/raster      : filters/base filters/aperture
 filters/resample    : filters/base filters/aperture filters/raster
 filters/gather      : filters/base filters/aperture filters/raster
 filters/seen        : filters/base
+filters/least       : filters/base
 color/line          : filters/base
 color/space         : filters/base color/line
 color/space/ocio    : color/line color/space

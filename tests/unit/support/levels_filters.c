@@ -4,6 +4,7 @@
 #include "filters/aperture/profile.h"
 #include "filters/base/half.h"
 #include "filters/gather/samples_inside.h"
+#include "filters/least/pack.h"
 #include "filters/resample/rows.h"
 #include "filters/seen/seen.h"
 #include "tests/unit/support/levels.h"
@@ -331,7 +332,135 @@ static const level_row seeing[] = {{"seen.down", down, true, 0},
                                    {"seen.across", across, true, 0},
                                    {"seen.add_band", add_band, true, 1e-6}};
 
+/* ---- Nearest pictures ---- */
+
+enum { TILE = WF_LEAST_COLUMNS, LANES = WF_LEAST_LANES };
+
+static double *tile_of(level_run *r, int lines) {
+    return level_doubles(r, (size_t)lines * TILE);
+}
+
+static void smooth(level_run *r) {
+    int lines = 3 + (int)(r->count % 60);
+    double *x = tile_of(r, lines), *f1 = level_doubles(r, (size_t)lines);
+    double *f2 = level_doubles(r, (size_t)lines), *inverse = level_doubles(r, (size_t)lines);
+    const wf_least_factor f = {f1, f2, inverse, lines};
+    f1[0] = f2[0] = f2[1] = 0;
+    if (!r->plain) wf_least_ops_at(r->level)->smooth(&f, x);
+    for (int i = 0; r->plain && i < TILE; i++) {
+        for (int j = 1; j < lines; j++)
+            x[j * TILE + i] = x[j * TILE + i] - f1[j] * x[(j - 1) * TILE + i] -
+                              f2[j] * (j > 1 ? x[(j - 2) * TILE + i] : 0);
+        for (int j = lines - 1; j >= 0; j--) {
+            x[j * TILE + i] *= inverse[j];
+            if (j + 1 < lines)
+                x[j * TILE + i] = x[j * TILE + i] - f1[j + 1] * x[(j + 1) * TILE + i] -
+                                  (j + 2 < lines ? f2[j + 2] : 0) *
+                                      (j + 2 < lines ? x[(j + 2) * TILE + i] : 0);
+        }
+    }
+    level_keep_doubles(r, x, (size_t)lines * TILE);
+}
+
+static double bob_flicker(const double *x, int lines, int j) {
+    double above = x[(j ? j - 1 : 1) * TILE], below = x[(j < lines - 1 ? j + 1 : j - 1) * TILE];
+    return 0.5 * x[j * TILE] - 0.25 * (above + below);
+}
+
+static void look(level_run *r) {
+    int lines = 3 + (int)(r->count % 60);
+    double *x = tile_of(r, lines), excess[TILE];
+    if (!r->plain) wf_least_ops_at(r->level)->look(x, lines, 0.1, 1.5, excess);
+    for (int i = 0; r->plain && i < TILE; i++) {
+        excess[i] = -0.1;
+        for (int j = 0; j < lines; j++) {
+            double l = x[j * TILE + i], over = fabs(bob_flicker(x + i, lines, j)) - 0.1;
+            over = over > l - 1.5 ? over : l - 1.5; /* NaN as the second of two stays */
+            over = over > -l ? over : -l;
+            excess[i] = excess[i] > over ? excess[i] : over;
+        }
+    }
+    level_keep_doubles(r, excess, TILE);
+}
+
+static double plain_gap(const wf_least_claim *c, int i) {
+    double gap = 0, high, low, tension;
+    for (int j = 0; j < c->lines; j++) {
+        int at = j * TILE + i;
+        double rest = c->l[at] - c->s[at] + c->press[at];
+        for (int k = j - 1; k <= j + 1; k++) {
+            if (k < 0 || k >= c->lines) continue;
+            double b = k == j ? 0.5 : k == 0 || k == c->lines - 1 ? -0.5 : -0.25;
+            tension = c->tension[k * TILE + i];
+            rest += b * (tension + c->weight * bob_flicker(c->l + i, c->lines, k));
+        }
+        tension = c->tension[at];
+        high = c->press[at] > 0 ? c->press[at] * (c->most - c->l[at]) : 0;
+        low = c->press[at] > 0 ? 0 : -c->press[at] * c->l[at];
+        gap += rest * rest + 2 * (high + low + c->limit * fabs(tension)) -
+               2 * tension * bob_flicker(c->l + i, c->lines, j);
+    }
+    return gap;
+}
+
+static void prove(level_run *r) {
+    int lines = 3 + (int)(r->count % 60);
+    const wf_least_claim c = {tile_of(r, lines),
+                              tile_of(r, lines),
+                              tile_of(r, lines),
+                              tile_of(r, lines),
+                              lines,
+                              4,
+                              0.1,
+                              1};
+    double gap[TILE];
+    if (!r->plain) wf_least_ops_at(r->level)->prove(&c, gap);
+    for (int i = 0; r->plain && i < TILE; i++) gap[i] = plain_gap(&c, i);
+    level_keep_doubles(r, gap, TILE);
+}
+
+/* Lanes of columns in a bound of 0.1; test_least.c holds what comes out to another solver. */
+static void solve(level_run *r) {
+    int height = 5 + (int)(r->count % 40);
+    wf_least_pack p = {.rows = height, .capacity = height};
+    size_t all = (size_t)(height + 2 * WF_LEAST_GUARD) * LANES * WF_LEAST_ARRAYS;
+    p.arrays = level_buffer(r, all * sizeof *p.arrays);
+    for (size_t n = 0; n < all; n++) p.arrays[n] = 0;
+    for (int n = 0; n < height * LANES; n++) {
+        bool inside = n >= LANES && n < (height - 1) * LANES;
+        const double given[] = {level_uniform(r, 0, 1),
+                                1.5,
+                                -1,
+                                0.25,
+                                -0.25,
+                                -0.25,
+                                1,
+                                1,
+                                0.1,
+                                0.5,
+                                0.1,
+                                0.1,
+                                0.1,
+                                0.1};
+        for (int a = 0; a < (int)(sizeof given / sizeof *given); a++)
+            wf_least_rows(&p, a)[n] = given[a];
+        for (int a = WF_LEAST_ABOVE; !inside && a <= WF_LEAST_BOUND; a++)
+            wf_least_rows(&p, a)[n] = 0;
+    }
+    for (int i = 0; i < LANES; i++) p.most[i] = 1, p.tolerance[i] = 1e-10;
+    wf_least_ops_at(r->level)->solve(&p);
+    level_keep_doubles(r, wf_least_rows(&p, WF_LEAST_L), (size_t)height * LANES);
+}
+
+static const level_row nearest[] = {
+    {"least.smooth", smooth, true, 0},
+    {"least.look", look, true, 0},
+    {"least.prove", prove, true, 1e-12},
+    {"least.solve", solve, false, 0},
+};
+
 const level_table level_filters[] = {
+    LEVEL_TABLE("filters/least/least_isa.c", wf_least_ops, nearest),
     LEVEL_TABLE("filters/resample/rows_isa.c", wf_row_ops, rows),
     LEVEL_TABLE("filters/aperture/profile_isa.c", wf_profile_ops, profiles),
     LEVEL_TABLE("filters/gather/samples_isa.c", wf_gather_ops, gathering),

@@ -1,0 +1,312 @@
+/* Columns that break their bounds: the segments of them that bounds change, side by side into
+ * the interior point method, and the proof of what comes out. */
+#include "filters/least/segments.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = WF_LEAST_COLUMNS, LANES = WF_LEAST_LANES };
+
+/* Bounds that are met to this much of max(1, max S) hold. */
+#define HELD 3e-8
+/* Of the duality gap, over max(1, max S)^2: what is solved to, and what is promised. */
+#define SOLVED 3e-11
+#define PROVED 1e-10
+
+/* Multipliers grow as limits shrink, and what rounding leaves of the gap with their square: so
+ * much is promised to limits from here on, times the root of max(1, max S), and to smaller ones
+ * in proportion. */
+#define FINE_LIMIT 0.003
+
+/* No L is so far above max(1, max S): where there is no most, this stands for it. */
+#define FAR 16
+/* Multipliers begin so that each, times its slack, is this share of the mean square change. */
+#define START 0.25
+
+/* How often a column is solved: the last time all of it at once. */
+enum { ROUNDS = 8 };
+
+static double b_at(const wf_least *least, const double *x, int j) {
+    int lines = least->desc.lines, above = j ? j - 1 : 1, below = j < lines - 1 ? j + 1 : j - 1;
+    return 0.5 * x[j * WIDTH] - 0.25 * (x[above * WIDTH] + x[below * WIDTH]);
+}
+
+/* ---- Segments ---- */
+
+/* Marks the lines of a column that break a bound; returns by how much at most. */
+static double find_breaks(const wf_least *least, wf_least_scratch *s, int column) {
+    const double *x = s->l + column, held = HELD * s->scale[column];
+    double worst = 0;
+    for (int j = 0; j < least->desc.lines; j++) {
+        double l = x[j * WIDTH];
+        double over = fabs(b_at(least, x, j)) - least->desc.limit;
+        over = fmax(over, fmax(-l, l - least->desc.most));
+        s->breaks[j] = s->breaks[j] || over > held;
+        worst = fmax(worst, over);
+    }
+    return worst;
+}
+
+static void add_segment(const wf_least *least, wf_least_scratch *s, int column, int first,
+                        int end, int margin) {
+    int lines = least->desc.lines;
+    wf_least_segment *last = s->segment_count ? &s->segments[s->segment_count - 1] : NULL;
+    first = first - margin < 3 ? 0 : first - margin;
+    end = end + margin > lines - 3 ? lines : end + margin;
+    if (last && last->column == column && first <= last->end + least->tail + 2)
+        last->end = end;
+    else
+        s->segments[s->segment_count++] = (wf_least_segment){column, first, end};
+}
+
+/* The lines about those that break a bound: a step of height h is spread over the square root
+ * of h / limit lines. */
+static void find_segments(const wf_least *least, wf_least_scratch *s, int column, double worst,
+                          int round) {
+    int margin = (5 + (int)(2 * sqrt(worst / least->desc.limit))) << round;
+    if (round > ROUNDS - 4 || margin > least->desc.lines) margin = least->desc.lines;
+    for (int j = 0; j < least->desc.lines; j++)
+        if (s->breaks[j]) add_segment(least, s, column, j, j + 1, margin);
+}
+
+static int by_length(const void *left, const void *right) {
+    const wf_least_segment *a = left, *b = right;
+    int one = a->end - a->first, other = b->end - b->first;
+    if (one != other) return one < other ? 1 : -1;
+    if (a->column != b->column) return a->column < b->column ? -1 : 1;
+    return a->first < b->first ? -1 : a->first > b->first;
+}
+
+/* ---- Packs ---- */
+
+static double *cell(const wf_least_pack *p, int array, int row, int lane) {
+    return wf_least_rows(p, array) + (ptrdiff_t)row * LANES + lane;
+}
+
+/* Rows that are no lane's: a picture of its own, at rest. */
+static void clear_lane(wf_least_pack *p, int lane, int from) {
+    for (int row = from; row < p->rows; row++) {
+        for (int a = 0; a < WF_LEAST_ARRAYS; a++) *cell(p, a, row, lane) = 0;
+        *cell(p, WF_LEAST_M0, row, lane) = *cell(p, WF_LEAST_LIMIT, row, lane) = 1;
+        *cell(p, WF_LEAST_BASE, row, lane) = *cell(p, WF_LEAST_L, row, lane) =
+            p->most[lane] / 2;
+        for (int i = 0; i < 4; i++) *cell(p, WF_LEAST_Z + i, row, lane) = 1;
+    }
+}
+
+static void clear_guard(wf_least_pack *p) {
+    size_t bytes = WF_LEAST_GUARD * LANES * sizeof(double);
+    for (int a = 0; a < WF_LEAST_ARRAYS; a++) memset(cell(p, a, p->rows, 0), 0, bytes);
+}
+
+/* The quadratic form at the ends of a segment: what lies beyond has no bound that matters, and
+ * is eliminated as in F D F', from above and from below. */
+static void close_end(const wf_least *least, wf_least_pack *p, int lane, int row, int next,
+                      int line) {
+    double pivot = least->pivot[line], f1 = least->f1[line + 1];
+    *cell(p, WF_LEAST_M0, row, lane) = pivot;
+    *cell(p, WF_LEAST_M1, row < next ? row : next, lane) = f1 * pivot;
+    *cell(p, WF_LEAST_M0, next, lane) = least->pivot[line + 1] + f1 * f1 * pivot;
+}
+
+static void put_form(const wf_least *least, wf_least_pack *p, const wf_least_segment *g,
+                     int lane) {
+    int rows = g->end - g->first, lines = least->desc.lines;
+    for (int row = 0; row < rows; row++)
+        for (int d = 0; d < 3; d++)
+            *cell(p, WF_LEAST_M0 + d, row, lane) =
+                row + d < rows ? wf_least_entry(&least->desc, g->first + row, d) : 0;
+    if (g->first) close_end(least, p, lane, 0, 1, g->first);
+    if (g->end < lines) close_end(least, p, lane, rows - 1, rows - 2, lines - g->end);
+}
+
+/* b of a line counts where both its neighbors are in the segment. */
+static void put_bounds(const wf_least *least, wf_least_pack *p, const wf_least_segment *g,
+                       int lane) {
+    int rows = g->end - g->first, lines = least->desc.lines;
+    for (int row = 0; row < rows; row++) {
+        int j = g->first + row;
+        bool bound = (row > 0 || j == 0) && (row < rows - 1 || j == lines - 1);
+        *cell(p, WF_LEAST_ABOVE, row, lane) = bound ? wf_least_b(lines, j, j - 1) : 0;
+        *cell(p, WF_LEAST_BELOW, row, lane) = bound ? wf_least_b(lines, j, j + 1) : 0;
+        *cell(p, WF_LEAST_BOUND, row, lane) = bound;
+        *cell(p, WF_LEAST_LIMIT, row, lane) = bound ? least->desc.limit : 1;
+        *cell(p, WF_LEAST_OWN, row, lane) = 1;
+    }
+}
+
+/* L begins as a gray with as much of the picture as leaves it well within all bounds. */
+static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least_segment *g,
+                      int lane) {
+    wf_least_pack *p = &s->pack;
+    const double *base = s->base + g->column;
+    int rows = g->end - g->first;
+    double mean = 0, most = p->most[lane], limit = least->desc.limit, part = 1, b = 0;
+    for (int j = g->first; j < g->end; j++) mean += base[j * WIDTH] / rows;
+    mean = fmin(fmax(mean, 0.05 * fmin(most, 1)), 0.95 * most);
+    for (int j = g->first; j < g->end; j++) {
+        double off = base[j * WIDTH] - mean;
+        b = fmax(b, fabs(b_at(least, base, j)));
+        if (off < 0) part = fmin(part, 0.9 * mean / -off);
+        if (off > 0) part = fmin(part, 0.9 * (most - mean) / off);
+    }
+    if (b > 0) part = fmin(part, 0.7 * limit / b);
+    double mu = 0;
+    for (int j = g->first; j < g->end; j++) {
+        double off = (1 - part) * (base[j * WIDTH] - mean);
+        mu += off * off / rows;
+    }
+    mu = fmax(START * mu, 1e-9);
+    for (int row = 0; row < rows; row++) {
+        double at = base[(g->first + row) * WIDTH], l = mean + part * (at - mean);
+        *cell(p, WF_LEAST_BASE, row, lane) = at;
+        *cell(p, WF_LEAST_L, row, lane) = l;
+        *cell(p, WF_LEAST_Z, row, lane) = *cell(p, WF_LEAST_Z + 1, row, lane) = mu / limit;
+        *cell(p, WF_LEAST_Z + 2, row, lane) = mu / l;
+        *cell(p, WF_LEAST_Z + 3, row, lane) = mu / (most - l);
+    }
+}
+
+/* Beyond a segment L follows from its end as it does without bounds. */
+static void put_tail(const wf_least *least, double *x, const double d[2], int line, int step) {
+    int lines = least->desc.lines;
+    double one = d[0], two = d[1];
+    for (int j = line; j >= 0 && j < lines && fabs(one) + fabs(two) > 1e-16; j += step) {
+        int at = step < 0 ? j : lines - 1 - j; /* counted from where F begins */
+        double next = -least->f1[at + 1] * one - least->f2[at + 2] * two;
+        x[j * WIDTH] += next;
+        two = one;
+        one = next;
+    }
+}
+
+static void take_lane(const wf_least *least, wf_least_scratch *s, const wf_least_segment *g,
+                      int lane) {
+    const wf_least_pack *p = &s->pack;
+    int rows = g->end - g->first, column = g->column;
+    double *x = s->l + column, d[2], e[2];
+    for (int i = 0; i < 2; i++) {
+        d[i] = *cell(p, WF_LEAST_L, i, lane) - *cell(p, WF_LEAST_BASE, i, lane);
+        e[i] = *cell(p, WF_LEAST_L, rows - 1 - i, lane) -
+               *cell(p, WF_LEAST_BASE, rows - 1 - i, lane);
+    }
+    for (int row = 0; row < rows; row++) {
+        int at = (g->first + row) * WIDTH;
+        double bound = *cell(p, WF_LEAST_BOUND, row, lane);
+        x[at] = *cell(p, WF_LEAST_L, row, lane);
+        s->tension[at + column] =
+            bound * (*cell(p, WF_LEAST_Z, row, lane) - *cell(p, WF_LEAST_Z + 1, row, lane));
+        double up = least->desc.most < HUGE_VAL ? *cell(p, WF_LEAST_Z + 3, row, lane) : 0;
+        s->press[at + column] = up - *cell(p, WF_LEAST_Z + 2, row, lane);
+    }
+    if (g->first) put_tail(least, x, d, g->first - 1, -1);
+    if (g->end < least->desc.lines) put_tail(least, x, e, g->end, 1);
+}
+
+static void solve_together(const wf_least *least, wf_least_scratch *s,
+                           const wf_least_segment *g, int count) {
+    wf_least_pack *p = &s->pack;
+    p->rows = g->end - g->first; /* they come by length */
+
+    for (int lane = 0; lane < LANES; lane++) {
+        int own = lane < count ? lane : 0, rows = g[own].end - g[own].first;
+        double scale = s->scale[g[own].column];
+        p->tolerance[lane] = SOLVED * scale * scale * rows / least->desc.lines;
+        p->most[lane] = fmin(least->desc.most, FAR * scale);
+        put_form(least, p, &g[own], lane);
+        put_bounds(least, p, &g[own], lane);
+        put_start(least, s, &g[own], lane);
+        clear_lane(p, lane, rows);
+    }
+    clear_guard(p);
+    least->ops->solve(p);
+    for (int lane = 0; lane < count; lane++) take_lane(least, s, &g[lane], lane);
+}
+
+static void solve_segments(const wf_least *least, wf_least_scratch *s) {
+    qsort(s->segments, (size_t)s->segment_count, sizeof *s->segments, by_length);
+    for (int n = 0; n < s->segment_count; n += LANES)
+        solve_together(least, s, s->segments + n,
+                       s->segment_count - n < LANES ? s->segment_count - n : LANES);
+}
+
+/* ---- Tiles ---- */
+
+static double scale_of(const wf_least *least, const wf_least_scratch *s, int column) {
+    double scale = 1;
+    for (int j = 0; j < least->desc.lines; j++) scale = fmax(scale, s->s[j * WIDTH + column]);
+    return scale;
+}
+
+static void reset_column(const wf_least *least, wf_least_scratch *s, int column) {
+    for (int j = 0; j < least->desc.lines; j++) {
+        int at = j * WIDTH + column;
+        s->l[at] = s->base[at];
+        s->tension[at] = s->press[at] = 0;
+    }
+}
+
+/* Columns that are not proved are solved by themselves, from wider and wider segments about
+ * what breaks bounds as they stand and as they stood. */
+static void solve_again(const wf_least *least, wf_least_scratch *s, int column, int round) {
+    if (round == 1) memset(s->breaks, 0, (size_t)least->desc.lines * sizeof *s->breaks);
+    find_breaks(least, s, column);
+    reset_column(least, s, column);
+    s->segment_count = 0;
+    find_segments(least, s, column, find_breaks(least, s, column), round);
+    solve_segments(least, s);
+}
+
+static bool is_proved(const wf_least *least, const wf_least_scratch *s, int column,
+                      const double *excess, const double *gap) {
+    double coarse = fmax(1, FINE_LIMIT * sqrt(s->scale[column]) / least->desc.limit);
+    return excess[column] <= HELD * s->scale[column] && gap[column] <= PROVED * coarse * coarse;
+}
+
+/* Most are proved at once; of others it may be rounding alone that stands in the way. */
+static void prove_column(const wf_least *least, wf_least_scratch *s, int column,
+                         const double *first_excess, const double *first_gap,
+                         wf_least_counts *counts) {
+    double excess[WIDTH], gap[WIDTH];
+    memcpy(excess, first_excess, sizeof excess);
+    memcpy(gap, first_gap, sizeof gap);
+    for (int round = 1; round < ROUNDS && !is_proved(least, s, column, excess, gap); round++) {
+        if (round > 1 || excess[column] > HELD * s->scale[column])
+            solve_again(least, s, column, round > 1 ? round - 1 : 1);
+        wf_least_settle(least, s, column);
+        wf_least_judge(least, s, excess, gap);
+    }
+    counts->solved++;
+    counts->failed += !is_proved(least, s, column, excess, gap);
+    counts->gap = fmax(counts->gap, gap[column]);
+}
+
+static void find_all_segments(const wf_least *least, wf_least_scratch *s, int columns,
+                              const double *broken) {
+    s->segment_count = 0;
+    for (int i = 0; i < columns; i++) {
+        s->scale[i] = broken[i] > HELD ? scale_of(least, s, i) : 1;
+        memset(s->breaks, 0, (size_t)least->desc.lines * sizeof *s->breaks);
+        if (broken[i] > HELD) find_segments(least, s, i, find_breaks(least, s, i), 0);
+    }
+}
+
+void wf_least_hold(const wf_least *least, wf_least_scratch *s, int columns,
+                   wf_least_counts *counts) {
+    double broken[WIDTH], excess[WIDTH], gap[WIDTH];
+    const wf_least_desc *d = &least->desc;
+    size_t samples = (size_t)d->lines * WIDTH;
+    bool any = false;
+    least->ops->look(s->l, d->lines, d->limit, d->most, broken);
+    for (int i = 0; i < columns; i++) any |= broken[i] > HELD;
+    if (!any) return;
+    memcpy(s->base, s->l, samples * sizeof *s->l);
+    memset(s->tension, 0, samples * sizeof *s->tension);
+    memset(s->press, 0, samples * sizeof *s->press);
+    find_all_segments(least, s, columns, broken);
+    solve_segments(least, s);
+    wf_least_judge(least, s, excess, gap);
+    for (int i = 0; i < columns; i++)
+        if (broken[i] > HELD) prove_column(least, s, i, excess, gap, counts);
+}
