@@ -24,6 +24,11 @@ typedef struct wf_light_ops {
                    double *to);
     /* How far off the surface rays start: share of the numbers' size. */
     void (*off_surface)(const wf_rays *rays, const double *s, double share, double *off);
+    /* Turns directions, in place and to length 1, to where rays go on: mirrored by normals that
+     * face them, or, where ratio is given, bent by Snell's law, ratio being the index before
+     * the surface over that behind. side: 1 where they stay before it, -1 where they do not. */
+    void (*turn)(wf_points *directions, const wf_points *normals, const double *ratio,
+                 int count, double *side);
     /* The way from points to a light: to its place, or against the direction it shines in. */
     void (*ways)(const wf_points *points, const wf_points *place, int count, wf_points *ways);
     void (*against)(const wf_points *direction, int count, wf_points *ways);

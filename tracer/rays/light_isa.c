@@ -36,6 +36,54 @@ static void off_surface(const wf_rays *restrict r, const double *restrict s, dou
     }
 }
 
+/* Twice divided, so that no size overflows. */
+static inline void to_unit(double *x, double *y, double *z) {
+    double far = largest(*x, *y, *z);
+    far = far > 0 ? far : 1;
+    *x /= far, *y /= far, *z /= far;
+    double length = sqrt(*x * *x + *y * *y + *z * *z);
+    length = length > 0 ? length : 1;
+    *x /= length, *y /= length, *z /= length;
+}
+
+static void mirror(wf_points *restrict d, const wf_points *restrict n, int count,
+                   double *restrict side) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
+        double x = d->x[i], y = d->y[i], z = d->z[i];
+        to_unit(&x, &y, &z);
+        double twice = -2 * (x * n->x[i] + y * n->y[i] + z * n->z[i]);
+        d->x[i] = x + twice * n->x[i];
+        d->y[i] = y + twice * n->y[i];
+        d->z[i] = z + twice * n->z[i];
+        side[i] = 1;
+    }
+}
+
+/* Snell; where nothing comes through all is mirrored. */
+static void bend(wf_points *restrict d, const wf_points *restrict n,
+                 const double *restrict ratio, int count, double *restrict side) {
+    for (int i = 0, places = wf_places(count); i < places; i++) {
+        double x = d->x[i], y = d->y[i], z = d->z[i], r = ratio[i];
+        to_unit(&x, &y, &z);
+        double along = x * n->x[i] + y * n->y[i] + z * n->z[i], cosine = -along;
+        double rest = 1 - r * r * (1 - cosine * cosine), root = sqrt(rest < 0 ? 0 : rest);
+        bool all = rest < 0;
+        double share = all ? 1 : r, toward = all ? -2 * along : r * cosine - root;
+        d->x[i] = share * x + toward * n->x[i];
+        d->y[i] = share * y + toward * n->y[i];
+        d->z[i] = share * z + toward * n->z[i];
+        side[i] = all ? 1 : -1;
+    }
+}
+
+static void turn(wf_points *d, const wf_points *n, const double *ratio, int count,
+                 double *side) {
+    if (ratio)
+        bend(d, n, ratio, count, side);
+    else
+        mirror(d, n, count, side);
+}
+
 static void ways(const wf_points *restrict p, const wf_points *restrict place, int count,
                  wf_points *restrict way) {
     for (int i = 0, places = wf_places(count); i < places; i++) {
@@ -128,5 +176,5 @@ static void sum(const wf_surfaces *restrict f, const double *restrict seen,
     }
 }
 
-const wf_light_ops WF_ISA_TABLE(wf_light_ops) = {face,    choose,      off_surface, ways,
+const wf_light_ops WF_ISA_TABLE(wf_light_ops) = {face,    choose,      off_surface, turn, ways,
                                                  against, faces_light, add,         sum};

@@ -20,10 +20,11 @@
 #define COARSE_ERROR 0.02
 
 /* Samples of a quarter that tell whether there is an edge, how many times as many may tell
- * more, and how many more a cell has to need as points before one is looked for, which costs
- * about 40 rays. */
+ * more, so many that more would not, and how many more a cell has to need as points before one
+ * is looked for, which costs about 40 rays. */
 #define EDGE_EACH    4
 #define AGAIN        4
+#define MOST_TRIED   64
 #define EDGE_SAMPLES 64
 
 /* How fast the square of an error may fall as samples become more, how far it may be over
@@ -67,7 +68,8 @@ static int wants_to_be_seen(const wf_adaptive *a, int at) {
 /* Whatever they say once there are some more: quarters may agree where none is right. */
 static int wants_edge(const wf_adaptive *a, int at) {
     if (!a->edge[at].tried) return a->edge[at].seen || needs_many(a, at);
-    return a->cell[at].each >= AGAIN * a->edge[at].tried && needs_many(a, at);
+    return a->edge[at].tried < MOST_TRIED && a->cell[at].each >= AGAIN * a->edge[at].tried &&
+           needs_many(a, at);
 }
 
 static int wants_to_follow(const wf_adaptive *a, int at) {

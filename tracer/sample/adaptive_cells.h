@@ -25,6 +25,7 @@ typedef struct wf_adaptive_cell {
     double sum[WF_QUARTERS][3]; /* of their light, beyond what its edge, if found, says */
     double square[3];           /* sums of its square */
     double expected[3];         /* sums of what its edge says where its samples are */
+    bool beyond;                /* the sums are of what samples differ from an edge */
     double mean[3], steep[3];   /* light, and what an error of it is on the display */
     double one;  /* the square of what it would be off with one sample, had it no edge */
     double need; /* the square of what it is off, as those about it say it, too; on the display,

@@ -147,19 +147,32 @@ bool wf_points_trace(const wf_adaptive *a, wf_adaptive_samples *k, size_t first)
     return true;
 }
 
-/* What the edge of a sample's cell says of its light; 0 if there is none. */
+/* What the edge of a sample's cell says of its light. */
 static void expect(const wf_adaptive *a, const wf_adaptive_samples *k, size_t n,
                    double rgb[3]) {
     int at = k->cell[n] / WF_QUARTERS;
     const double p[3] = {(double)k->x[n] - wf_cell_x(a, at), (double)k->y[n] - wf_cell_y(a, at),
                          (double)k->fraction[n]};
-    memset(rgb, 0, 3 * sizeof *rgb);
-    if (a->edge[at].found) wf_edge_colors(&a->edge[at], p, rgb);
+    wf_edge_colors(&a->edge[at], p, rgb);
 }
 
-static void add_up(wf_adaptive *a, size_t n, int quarter) {
+/* Samples first <= n < end, of one quarter of a cell that has no edge. */
+static void add_plain(const wf_adaptive_samples *k, size_t first, size_t end, double sum[3],
+                      double square[3]) {
+    for (int c = 0; c < 3; c++) {
+        double all = sum[c], squares = square[c];
+        for (size_t n = first; n < end; n++) {
+            double v = (double)k->rgb[c][n];
+            all += v;
+            squares += v * v;
+        }
+        sum[c] = all;
+        square[c] = squares;
+    }
+}
+
+static void add_beyond(wf_adaptive *a, wf_adaptive_cell *cell, int quarter, size_t n) {
     const wf_adaptive_samples *k = &a->c->kept;
-    wf_adaptive_cell *cell = &a->cell[k->cell[n] / WF_QUARTERS];
     double says[3];
     expect(a, k, n, says);
     for (int c = 0; c < 3; c++) {
@@ -170,17 +183,46 @@ static void add_up(wf_adaptive *a, size_t n, int quarter) {
     }
 }
 
+static void add_up(wf_adaptive *a, int at, int quarter, size_t first, size_t end) {
+    wf_adaptive_cell *cell = &a->cell[at];
+    cell->beyond = a->edge[at].found;
+    if (!cell->beyond)
+        add_plain(&a->c->kept, first, end, cell->sum[quarter], cell->square);
+    else
+        for (size_t n = first; n < end; n++) add_beyond(a, cell, quarter, n);
+}
+
+static void forget_sums(wf_adaptive_cell *c) {
+    memset(c->sum, 0, sizeof c->sum);
+    memset(c->square, 0, sizeof c->square);
+    memset(c->expected, 0, sizeof c->expected);
+}
+
+/* A cell's samples lie in the order of its sequence, so that those of a quarter follow those of
+ * the one before. */
+static void add_cell_again(wf_adaptive *a, int at, size_t first, size_t end, int *seen) {
+    int each = a->cell[at].each;
+    while (first < end) {
+        size_t left = (size_t)(each - *seen % each),
+               some = end - first < left ? end - first : left;
+        add_up(a, at, *seen / each, first, first + some);
+        *seen += (int)some;
+        first += some;
+    }
+}
+
 void wf_points_add_again(wf_adaptive *a) {
     const wf_adaptive_samples *k = &a->c->kept;
     int seen[GRID_CELLS] = {0};
+    bool again[GRID_CELLS];
     for (int at = 0; at < GRID_CELLS; at++) {
-        memset(a->cell[at].sum, 0, sizeof a->cell[at].sum);
-        memset(a->cell[at].square, 0, sizeof a->cell[at].square);
-        memset(a->cell[at].expected, 0, sizeof a->cell[at].expected);
+        again[at] = a->edge[at].found || a->cell[at].beyond;
+        if (again[at]) forget_sums(&a->cell[at]);
     }
-    for (size_t n = 0; n < k->count; n++) {
+    for (size_t n = 0, end; n < k->count; n = end) {
         int at = k->cell[n] / WF_QUARTERS;
-        add_up(a, n, seen[at]++ / a->cell[at].each);
+        end = end_of_cell(k, n);
+        if (again[at]) add_cell_again(a, at, n, end, &seen[at]);
     }
 }
 
@@ -208,8 +250,11 @@ bool wf_points_draw(wf_adaptive *a) {
         if (a->more[at] && !draw_cell(a, at)) return false;
     }
     if (!wf_points_trace(a, &a->c->kept, first)) return false;
-    for (size_t n = first; n < a->c->kept.count; n++)
-        add_up(a, n, a->c->kept.cell[n] % WF_QUARTERS);
+    const int *cell = a->c->kept.cell;
+    for (size_t end; first < a->c->kept.count; first = end) {
+        for (end = first + 1; end < a->c->kept.count && cell[end] == cell[first];) end++;
+        add_up(a, cell[first] / WF_QUARTERS, cell[first] % WF_QUARTERS, first, end);
+    }
     return true;
 }
 
@@ -273,33 +318,45 @@ void wf_points_hand_over(const wf_adaptive *a, const wf_adaptive_samples *k) {
     hand_over(a, k, &colors.cells);
 }
 
-static void copy_sample(const wf_adaptive_samples *from, size_t n, wf_adaptive_samples *to) {
+/* Appends samples first <= n < end to others, or to those before them, for which there is
+ * space. */
+static void move_samples(wf_adaptive_samples *from, size_t first, size_t end,
+                         wf_adaptive_samples *to) {
     float **column[2][COLUMNS];
-    find_columns((wf_adaptive_samples *)from, column[0]);
+    size_t count = end - first;
+    find_columns(from, column[0]);
     find_columns(to, column[1]);
-    for (int c = 0; c < COLUMNS; c++) (*column[1][c])[to->count] = (*column[0][c])[n];
-    to->cell[to->count++] = from->cell[n];
+    for (int c = 0; c < COLUMNS && (from != to || first != to->count); c++)
+        memmove(*column[1][c] + to->count, *column[0][c] + first, count * sizeof(float));
+    memmove(to->cell + to->count, from->cell + first, count * sizeof *to->cell);
+    to->count += count;
+}
+
+/* Keeps the samples of those cells alone. */
+static void keep_cells(wf_adaptive_samples *k, const bool *kept) {
+    wf_adaptive_samples all = *k;
+    k->count = 0;
+    for (size_t n = 0, end; n < all.count; n = end) {
+        end = end_of_cell(&all, n);
+        if (kept[all.cell[n] / WF_QUARTERS]) move_samples(k, n, end, k);
+    }
 }
 
 /* Leaves out the samples of cells about the tile. */
 static void drop_about(const wf_adaptive *a, wf_adaptive_samples *k) {
-    size_t count = k->count;
-    k->count = 0;
-    for (size_t n = 0; n < count; n++)
-        if (a->cell[k->cell[n] / WF_QUARTERS].own) copy_sample(k, n, k);
+    bool own[GRID_CELLS];
+    for (int at = 0; at < GRID_CELLS; at++) own[at] = a->cell[at].own;
+    keep_cells(k, own);
 }
 
 void wf_points_drop_rare(wf_adaptive *a) {
-    wf_adaptive_samples *k = &a->c->kept;
-    size_t count = k->count;
-    k->count = 0;
-    for (size_t n = 0; n < count; n++)
-        if (!a->cell[k->cell[n] / WF_QUARTERS].rare) copy_sample(k, n, k);
+    bool common[GRID_CELLS];
+    for (int at = 0; at < GRID_CELLS; at++) common[at] = !a->cell[at].rare;
+    keep_cells(&a->c->kept, common);
     for (int at = 0; at < GRID_CELLS; at++) {
         wf_adaptive_cell *c = &a->cell[at];
         if (!c->rare) continue;
-        memset(c->sum, 0, sizeof c->sum);
-        memset(c->square, 0, sizeof c->square);
+        forget_sums(c);
         c->each = 0;
         c->set = WF_SECOND_SET;
     }
@@ -307,18 +364,18 @@ void wf_points_drop_rare(wf_adaptive *a) {
 
 /* Takes out the samples of cells whose edge is known, into `rest`, less what the edge says. */
 static bool part(const wf_adaptive *a, wf_adaptive_samples *k, wf_adaptive_samples *rest) {
-    size_t count = k->count;
+    wf_adaptive_samples all = *k;
     k->count = rest->count = 0;
-    for (size_t n = 0; n < count; n++) {
-        double says[3];
-        if (!a->edge[k->cell[n] / WF_QUARTERS].found) {
-            copy_sample(k, n, k);
-            continue;
+    for (size_t first = 0, end; first < all.count; first = end) {
+        bool edge = a->edge[all.cell[first] / WF_QUARTERS].found;
+        end = end_of_cell(&all, first);
+        if (edge && !wf_points_reserve(rest, end - first)) return false;
+        for (size_t n = first; edge && n < end; n++) {
+            double says[3];
+            expect(a, k, n, says);
+            for (int c = 0; c < 3; c++) k->rgb[c][n] -= (float)says[c];
         }
-        if (!wf_points_reserve(rest, 1)) return false;
-        expect(a, k, n, says);
-        for (int c = 0; c < 3; c++) k->rgb[c][n] -= (float)says[c];
-        copy_sample(k, n, rest);
+        move_samples(k, first, end, edge ? rest : k);
     }
     return true;
 }

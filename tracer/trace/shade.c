@@ -37,10 +37,6 @@ static void put(wf_points *p, int i, wf_vec v) {
     p->x[i] = v.x, p->y[i] = v.y, p->z[i] = v.z;
 }
 
-static wf_vec direction(const wf_rays *r, int i) {
-    return (wf_vec){r->dx[i], r->dy[i], r->dz[i]};
-}
-
 /* ---- Surfaces ---- */
 
 static bool paint(shading *h) {
@@ -69,12 +65,29 @@ static bool bend(shading *h) {
 
 /* ---- Secondary packets ---- */
 
-static void add_ray(const shading *h, int lane, wf_vec from, wf_vec to, wf_packet *packet) {
+/* Has a packet's rays, as many as lanes, begin `side` times off the surfaces that those lanes
+ * have met, each at its time; side NULL: 1. */
+static void begin_rays(const shading *h, const int *lane, int lanes, const double *side,
+                       wf_packet *packet) {
+    const wf_points *p = &h->l->point, *n = &h->l->normal;
     wf_rays *r = &packet->rays;
-    int i = r->count++;
-    r->ox[i] = from.x, r->oy[i] = from.y, r->oz[i] = from.z;
-    r->dx[i] = to.x, r->dy[i] = to.y, r->dz[i] = to.z;
-    packet->f[i] = h->l->packet.f[lane];
+    r->count = lanes;
+    packet->late_s = h->l->packet.late_s;
+    for (int k = 0; k < lanes; k++) {
+        int i = lane[k];
+        double off = side ? side[k] * h->off[i] : h->off[i];
+        r->ox[k] = p->x[i] + off * n->x[i];
+        r->oy[k] = p->y[i] + off * n->y[i];
+        r->oz[k] = p->z[i] + off * n->z[i];
+        packet->f[k] = h->l->packet.f[i];
+    }
+}
+
+static void aim_rays(const wf_points *ways, const int *lane, wf_rays *r) {
+    for (int k = 0; k < r->count; k++) {
+        int i = lane ? lane[k] : k;
+        r->dx[k] = ways->x[i], r->dy[k] = ways->y[i], r->dz[k] = ways->z[i];
+    }
 }
 
 /* Fills the places behind the packet's rays with copies of the last. */
@@ -83,6 +96,16 @@ static void pad(wf_packet *packet) {
     double *const array[] = {r->ox, r->oy, r->oz, r->dx, r->dy, r->dz, packet->f};
     for (size_t n = 0; n < sizeof array / sizeof *array; n++)
         for (int i = r->count; i < WF_PACKET; i++) array[n][i] = array[n][r->count - 1];
+}
+
+/* Lanes of which share is more than 0. */
+static int find_lanes(const double *share, int count, int *lane) {
+    int lanes = 0;
+    for (int i = 0; i < count; i++) {
+        lane[lanes] = i;
+        lanes += share[i] > 0;
+    }
+    return lanes;
 }
 
 /* ---- Lights ---- */
@@ -166,17 +189,11 @@ static bool cast_shadows(const shading *h, const wf_light *light, const wf_point
                          double *share, shadows *out) {
     wf_trace_level *l = h->l;
     uint8_t dark[WF_PACKET];
-    int lane[WF_PACKET], lanes = 0;
+    int lane[WF_PACKET], lanes = find_lanes(share, h->count, lane);
     double far = light->kind == WF_LIGHT_DIRECTION ? HUGE_VAL : 1 - OFF_SURFACE;
-    l->shadow.rays.count = 0;
-    l->shadow.late_s = l->packet.late_s;
-    for (int i = 0; i < h->count; i++) {
-        if (!(share[i] > 0)) continue;
-        wf_vec from = wf_vec_along(at(&l->point, i), h->off[i], at(&l->normal, i));
-        add_ray(h, i, from, at(ways, i), &l->shadow);
-        lane[lanes++] = i;
-    }
     if (!lanes) return true;
+    begin_rays(h, lane, lanes, NULL, &l->shadow);
+    aim_rays(ways, lane, &l->shadow.rays);
     pad(&l->shadow);
     h->s->counts.rays += lanes;
     if (!wf_shadow(h->t, h->s, &l->shadow, far, dark) || !let_through(h, far, lane, dark, out))
@@ -225,32 +242,13 @@ static bool add_lights(const shading *h) {
 
 /* ---- Mirrors and glass ---- */
 
-static wf_vec mirrored(wf_vec d, wf_vec n) {
-    return wf_vec_along(d, -2 * wf_vec_dot(d, n), n);
-}
-
-/* Snell: false where all is reflected. n faces against d; ratio: index before over behind. */
-static bool refracted(wf_vec d, wf_vec n, double ratio, wf_vec *out) {
-    double cosine = -wf_vec_dot(d, n), rest = 1 - ratio * ratio * (1 - cosine * cosine);
-    if (rest < 0) return false;
-    wf_vec flat = wf_vec_along((wf_vec){0, 0, 0}, ratio, d);
-    *out = wf_vec_along(flat, ratio * cosine - sqrt(rest), n);
-    return true;
-}
-
-static wf_vec way_on(const shading *h, int i, bool through, double *side) {
-    wf_vec d = wf_vec_unit(direction(&h->l->packet.rays, i)), n = at(&h->l->normal, i), out;
-    *side = 1;
-    if (!through || !refracted(d, n, h->ratio[i], &out)) return mirrored(d, n);
-    *side = -1;
-    return out;
-}
-
 /* Of a holdout nothing is seen but that it hides. */
-static double share_of(const shading *h, int i, bool through) {
-    const wf_material *m = h->surface->material[i];
-    if (!m || (m->holdout && h->l->open)) return 0;
-    return through ? (double)m->refract : (double)m->reflect;
+static void find_shares(const shading *h, bool through, double *share) {
+    for (int i = 0; i < h->count; i++) {
+        const wf_material *m = h->surface->material[i];
+        bool none = !m || (m->holdout && h->l->open);
+        share[i] = none ? 0 : through ? (double)m->refract : (double)m->reflect;
+    }
 }
 
 /* How much of what is behind comes through, of all colors together. */
@@ -262,11 +260,12 @@ static double clearness(const shading *h, int i) {
 
 /* What comes by way of a mirror is added; what comes through takes the place of as much of the
  * surface's own light. */
-static void mix(const shading *h, const int *lane, int lanes, bool through) {
+static void mix(const shading *h, const double *shares, const int *lane, int lanes,
+                bool through) {
     const wf_trace_level *next = &h->s->level[h->level + 1];
     for (int k = 0; k < lanes; k++) {
         int i = lane[k];
-        double share = share_of(h, i, through);
+        double share = shares[i];
         if (through) h->l->alpha[i] = 1 - share * clearness(h, i) * (1 - next->alpha[k]);
         for (int c = 0; c < 3; c++) {
             double own = h->l->rgb[c][i], tint = h->surface->color[c][i];
@@ -276,24 +275,36 @@ static void mix(const shading *h, const int *lane, int lanes, bool through) {
     }
 }
 
+/* Has the rays of the level below begin where these lanes go on. */
+static void set_out(const shading *h, const int *lane, int lanes, bool through,
+                    wf_packet *packet) {
+    const wf_rays *r = &h->l->packet.rays;
+    const wf_points *n = &h->l->normal;
+    wf_points way, normal;
+    _Alignas(64) double ratio[WF_PACKET], side[WF_PACKET];
+    for (int k = 0; k < wf_places(lanes); k++) {
+        int i = lane[k < lanes ? k : lanes - 1];
+        way.x[k] = r->dx[i], way.y[k] = r->dy[i], way.z[k] = r->dz[i];
+        normal.x[k] = n->x[i], normal.y[k] = n->y[i], normal.z[k] = n->z[i];
+        ratio[k] = h->ratio[i];
+    }
+    h->t->light->turn(&way, &normal, through ? ratio : NULL, lanes, side);
+    begin_rays(h, lane, lanes, side, packet);
+    aim_rays(&way, NULL, &packet->rays);
+    pad(packet);
+}
+
 static bool look_on(const shading *h, bool through) {
     wf_trace_level *next = &h->s->level[h->level + 1];
-    int lane[WF_PACKET], lanes = 0;
-    next->packet.rays.count = 0;
-    next->packet.late_s = h->l->packet.late_s;
-    next->open = through && h->l->open;
-    for (int i = 0; i < h->count; i++) {
-        double side;
-        if (!(share_of(h, i, through) > 0)) continue;
-        wf_vec way = way_on(h, i, through, &side);
-        wf_vec from = wf_vec_along(at(&h->l->point, i), side * h->off[i], at(&h->l->normal, i));
-        add_ray(h, i, from, way, &next->packet);
-        lane[lanes++] = i;
-    }
+    double share[WF_PACKET];
+    int lane[WF_PACKET];
+    find_shares(h, through, share);
+    int lanes = find_lanes(share, h->count, lane);
     if (!lanes) return true;
-    pad(&next->packet);
+    next->open = through && h->l->open;
+    set_out(h, lane, lanes, through, &next->packet);
     if (!wf_look_about(h->t, h->s, h->level + 1)) return false;
-    mix(h, lane, lanes, through);
+    mix(h, share, lane, lanes, through);
     return true;
 }
 

@@ -6,9 +6,10 @@
 #include "tracer/trace/nearest.h"
 #include "tracer/trace/seek.h"
 
-static uint8_t kind_of(const wf_tracer *t, int64_t solid) {
-    if (solid < 0) return WF_SHADOW_NONE;
-    return t->media && t->lets_light[t->object_of[solid]] ? WF_SHADOW_CLEAR : WF_SHADOW_OPAQUE;
+static void find_kinds(const wf_tracer *t, const int64_t *solid, int count, uint8_t *dark) {
+    for (int i = 0; i < count; i++) dark[i] = solid[i] < 0 ? WF_SHADOW_NONE : WF_SHADOW_OPAQUE;
+    for (int i = 0; t->media && i < count; i++)
+        if (solid[i] >= 0 && t->lets_light[t->object_of[solid[i]]]) dark[i] = WF_SHADOW_CLEAR;
 }
 
 bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet, double far,
@@ -23,6 +24,6 @@ bool wf_shadow(const wf_tracer *t, wf_trace_scratch *s, const wf_packet *packet,
         return false;
     bool good = few ? wf_nearest(t, s, packet, &s->shadow, false, &hits)
                     : wf_seek(t, s, packet, WF_SEEK_ANY, &hits);
-    for (int i = 0; i < packet->rays.count; i++) dark[i] = kind_of(t, hits.solid[i]);
+    find_kinds(t, hits.solid, packet->rays.count, dark);
     return good;
 }

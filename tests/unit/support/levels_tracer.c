@@ -507,6 +507,16 @@ static void off_surface(level_run *r) {
     keep(r, off);
 }
 
+static void turn(level_run *r) {
+    wf_points d, n;
+    double ratio[WF_PACKET], side[WF_PACKET];
+    bool through = level_draw(r) % 2;
+    fill_points(r, &d), fill_points(r, &n), fill(r, ratio), fill(r, side);
+    light(r)->turn(&d, &n, through ? ratio : NULL, drawn_count(r), side);
+    keep_points(r, &d);
+    keep(r, side);
+}
+
 static void ways(level_run *r) {
     wf_points p, to, way;
     fill_points(r, &p), fill_points(r, &to), fill_points(r, &way);
@@ -568,6 +578,7 @@ static const level_row lights[] = {
     {"light.face", face, false, 0},
     {"light.choose", choose, false, 0},
     {"light.off_surface", off_surface, false, 0},
+    {"light.turn", turn, false, 0},
     {"light.ways", ways, false, 0},
     {"light.against", against, false, 0},
     {"light.faces_light", faces_light, false, 0},
