@@ -20,23 +20,21 @@ static void of_bytes(float *restrict signal, const uint8_t *restrict code, doubl
     for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
 }
 
-static inline void put_or_add(float *to, lanes sum, bool more) {
-    if (more) sum += lanes_at(to);
-    put_lanes(to, sum);
-}
-
-/* Vectors side by side, so that no sum waits for another. */
+/* Vectors side by side, so that no sum waits for another, and all sums of two phases fit into
+ * registers. */
+#if defined(__AVX512F__)
 enum { BESIDE = 4 };
+#else
+enum { BESIDE = 2 };
+#endif
 
-/* Of taps k, k + by, .. up to but not with `end`, added to what is in out where `more`. */
-static inline void sum_taps(float *out, const float *from, ptrdiff_t step, const float *tap,
-                            int k, int end, int by, bool more) {
-    lanes sum[BESIDE];
+/* Adds tap[k] times sample k, of taps k, k + by, .. up to but not with `end`. */
+static inline void sum_taps(lanes sum[BESIDE], const float *from, ptrdiff_t step,
+                            const float *tap, int k, int end, int by) {
     for (int b = 0; b < BESIDE; b++) sum[b] = lanes_of(0);
     for (; k != end; k += by)
         for (int b = 0; b < BESIDE; b++)
             sum[b] += tap[k] * lanes_at(from + k * step + b * LANES);
-    for (int b = 0; b < BESIDE; b++) put_or_add(out + b * LANES, sum[b], more);
 }
 
 static inline float weigh_one(const float *from, ptrdiff_t step, const wf_upsample_phase *p) {
@@ -51,38 +49,40 @@ static void weigh(float *restrict out, const float *restrict chroma, ptrdiff_t s
     const float *from = chroma + phase->first * step;
     size_t i = 0;
     for (; i + BESIDE * LANES <= count; i += BESIDE * LANES) {
-        sum_taps(out + i, from + i, step, phase->tap, 0, phase->middle, 1, false);
-        sum_taps(out + i, from + i, step, phase->tap, phase->count - 1, phase->middle - 1, -1,
-                 true);
+        lanes before[BESIDE], after[BESIDE];
+        sum_taps(before, from + i, step, phase->tap, 0, phase->middle, 1);
+        sum_taps(after, from + i, step, phase->tap, phase->count - 1, phase->middle - 1, -1);
+        for (int b = 0; b < BESIDE; b++) put_lanes(out + i + b * LANES, after[b] + before[b]);
     }
     for (; i < count; i++) out[i] = weigh_one(from + i, step, phase);
 }
 
-/* Of taps k, k + by, .. up to but not with `end`, added to what is in out where `more`. */
-static inline void sum_pair(float *const out[2], const float *from, ptrdiff_t step,
-                            const wf_upsample_phase *p, int k, int end, int by, bool more) {
-    lanes a[BESIDE], c[BESIDE];
+/* The same of two phases, for which every sample is loaded once. */
+static inline void sum_pair(lanes a[BESIDE], lanes c[BESIDE], const float *from, ptrdiff_t step,
+                            const wf_upsample_phase *p, int k, int end, int by) {
     for (int b = 0; b < BESIDE; b++) a[b] = c[b] = lanes_of(0);
     for (; k != end; k += by)
         for (int b = 0; b < BESIDE; b++) {
-            lanes sample = lanes_at(from + k * step + b * LANES);
+            lanes sample = loaded(lanes_at(from + k * step + b * LANES));
             a[b] += p[0].tap[k] * sample;
             c[b] += p[1].tap[k] * sample;
         }
-    for (int b = 0; b < BESIDE; b++) {
-        put_or_add(out[0] + b * LANES, a[b], more);
-        put_or_add(out[1] + b * LANES, c[b], more);
-    }
 }
 
 static void weigh_pair(float *const out[2], const float *chroma, ptrdiff_t step,
                        const wf_upsample_phase phase[2], size_t count) {
     const float *from = chroma + phase->first * step;
+    float *even = out[0], *odd = out[1];
+    int first = 0, middle = phase->middle, last = phase->count - 1;
     size_t i = 0;
     for (; i + BESIDE * LANES <= count; i += BESIDE * LANES) {
-        float *const to[2] = {out[0] + i, out[1] + i};
-        sum_pair(to, from + i, step, phase, 0, phase->middle, 1, false);
-        sum_pair(to, from + i, step, phase, phase->count - 1, phase->middle - 1, -1, true);
+        lanes before[2][BESIDE], after[2][BESIDE];
+        sum_pair(before[0], before[1], from + i, step, phase, first, middle, 1);
+        sum_pair(after[0], after[1], from + i, step, phase, last, middle - 1, -1);
+        for (int b = 0; b < BESIDE; b++) {
+            put_lanes(even + i + b * LANES, after[0][b] + before[0][b]);
+            put_lanes(odd + i + b * LANES, after[1][b] + before[1][b]);
+        }
     }
     for (; i < count; i++)
         for (int r = 0; r < 2; r++) out[r][i] = weigh_one(from + i, step, &phase[r]);

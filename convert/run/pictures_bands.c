@@ -163,14 +163,21 @@ void wf_pictures_finish_line(wf_run *run, wf_worker *worker, const wf_field *fie
 }
 
 /* Finishes the lines that have seen their last band, while their sums are in the caches. */
-static void finish_lines(const batch *b, wf_worker *worker, int band) {
+static void finish_lines(const batch *b, wf_worker *worker, int band, wf_field *field) {
+    wf_span lines = wf_band_lines(field, band);
+    for (int l = lines.first; l < lines.end; l++)
+        if (wf_field_line_ready(field, l)) wf_pictures_finish_line(b->run, worker, field, l);
+}
+
+static void close_band(const batch *b, wf_worker *worker, int band, bool whole) {
+    wf_scratch *scratch = b->p->scratch[worker->number];
     for (int f = 0; f < b->field_count; f++) {
         wf_field *field = b->fields[f];
-        wf_span lines = wf_band_lines(field, band);
-        if (wf_field_index(field) >= b->units->group_end) continue;
-        for (int l = lines.first; l < lines.end; l++)
-            if (wf_field_line_ready(field, l))
-                wf_pictures_finish_line(b->run, worker, field, l);
+        bool at_once = whole && wf_field_index(field) < b->units->group_end;
+        double start = wf_now_s();
+        wf_band_close(field, band, scratch, f, at_once);
+        worker->resample_s += wf_now_s() - start;
+        if (at_once) finish_lines(b, worker, band, field);
     }
 }
 
@@ -179,13 +186,8 @@ static void add_band(void *user, wf_worker *worker, int band) {
     wf_scratch *scratch = b->p->scratch[worker->number];
     for (int f = 0; f < b->field_count; f++) wf_band_open(b->fields[f], band, scratch, f);
     weft_status status = add_pictures(b, worker, band);
-    double start = wf_now_s();
-    for (int f = 0; f < b->field_count; f++) wf_band_close(b->fields[f], band, scratch, f);
-    worker->resample_s += wf_now_s() - start;
-    if (status)
-        wf_crew_fail(&b->run->crew, worker, status);
-    else
-        finish_lines(b, worker, band);
+    close_band(b, worker, band, !status);
+    if (status) wf_crew_fail(&b->run->crew, worker, status);
 }
 
 /* ---- One batch ---- */

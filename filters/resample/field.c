@@ -25,34 +25,56 @@ static size_t slot_sum_count(const wf_resampler *rs) {
     return (size_t)(top > bottom ? top : bottom);
 }
 
+/* Kernels of the line that has most. */
+static size_t most_kernels(const wf_resampler *rs) {
+    int top = rs->weights[0].most_kernels, bottom = rs->weights[1].most_kernels;
+    return (size_t)(top > bottom ? top : bottom);
+}
+
+static size_t strand_count(const wf_resampler *rs) {
+    return rs->polyphase ? (size_t)rs->phases * most_kernels(rs) * (size_t)rs->taps : 0;
+}
+
 size_t wf_scratch_bytes(const wf_resampler *rs, int fields_in_flight) {
     size_t width = (size_t)rs->x.pixels,
            kernel = (size_t)rs->phases * (size_t)rs->taps + 2 * width;
-    return sizeof(double) *
-           ((size_t)fields_in_flight * slot_sum_count(rs) * wf_sum_samples(rs) +
-            wf_row_samples(rs) + kernel +
-            (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) + 2 * width);
+    size_t doubles = (size_t)fields_in_flight * slot_sum_count(rs) * wf_sum_samples(rs) +
+                     most_kernels(rs) * wf_row_samples(rs) + kernel +
+                     (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) +
+                     2 * width;
+    return doubles * sizeof(double) + slot_sum_count(rs) * wf_done_samples(rs) * sizeof(float) +
+           strand_count(rs) * sizeof(wf_strand);
+}
+
+static bool make_buffers(wf_scratch *s, int fields_in_flight) {
+    const wf_resampler *rs = s->rs;
+    size_t width = (size_t)rs->x.pixels, phases = (size_t)rs->phases;
+    s->sums = malloc((size_t)fields_in_flight * s->slot_samples * sizeof *s->sums);
+    s->live = calloc((size_t)fields_in_flight * s->slot_sums, sizeof *s->live);
+    s->held.done = malloc(s->slot_sums * wf_done_samples(rs) * sizeof *s->held.done);
+    s->rows = malloc(s->most_kernels * wf_row_samples(rs) * sizeof *s->rows);
+    s->strands = malloc((strand_count(rs) + 1) * sizeof *s->strands);
+    s->strand_counts = malloc(phases * sizeof *s->strand_counts);
+    s->picture =
+        malloc((size_t)rs->desc.channels * phases * wf_run_length(rs) * sizeof *s->picture);
+    s->inside = malloc(2 * width * sizeof *s->inside);
+    s->totals = malloc(s->most_kernels * sizeof *s->totals);
+    return s->sums && s->live && s->held.done && s->rows && s->strands && s->strand_counts &&
+           s->picture && s->inside && s->totals && wf_kernel_alloc(rs, &s->kernel);
 }
 
 wf_scratch *wf_scratch_new(const wf_resampler *rs, int fields_in_flight) {
     wf_scratch *s = calloc(1, sizeof *s);
     if (!s) return NULL;
-    size_t width = (size_t)rs->x.pixels;
     s->rs = rs;
     s->slot_sums = slot_sum_count(rs);
     s->slot_samples = s->slot_sums * wf_sum_samples(rs);
-    s->sums = malloc((size_t)fields_in_flight * s->slot_samples * sizeof *s->sums);
-    s->live = calloc((size_t)fields_in_flight * s->slot_sums, sizeof *s->live);
-    s->row = malloc(wf_row_samples(rs) * sizeof *s->row);
-    s->picture = malloc((size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) *
-                        sizeof *s->picture);
-    s->inside = malloc(2 * width * sizeof *s->inside);
-    if (!s->sums || !s->live || !s->row || !s->picture || !s->inside ||
-        !wf_kernel_alloc(rs, &s->kernel)) {
+    s->most_kernels = most_kernels(rs);
+    if (!make_buffers(s, fields_in_flight)) {
         wf_scratch_free(s);
         return NULL;
     }
-    s->exists = s->inside + width;
+    s->exists = s->inside + rs->x.pixels;
     return s;
 }
 
@@ -60,9 +82,13 @@ void wf_scratch_free(wf_scratch *s) {
     if (!s) return;
     free(s->sums);
     free(s->live);
-    free(s->row);
+    free(s->held.done);
+    free(s->rows);
+    free(s->strands);
+    free(s->strand_counts);
     free(s->picture);
     free(s->inside);
+    free(s->totals);
     wf_kernel_release(&s->kernel);
     free(s);
 }
@@ -270,21 +296,11 @@ static wf_span columns_added(const wf_resampler *rs, const wf_band_input *input)
     return meet(reached, (wf_span){input->here.x0, input->here.x1});
 }
 
-/* Whether a row of samples is added to all of a sum, which then begins with it. */
-static bool fills_sum(const wf_resampler *rs, const wf_band_input *input) {
+/* Whether rows of samples are added to all of a sum, which then begins with them. */
+static bool fills_sums(const wf_resampler *rs, const wf_band_input *input) {
     wf_span columns = columns_added(rs, input);
     return !input->half && columns.first == rs->columns.first &&
            columns.end == rs->columns.end && input->channels >= rs->desc.channels;
-}
-
-static void begin_sum(const wf_field *f, const wf_term *term, const wf_band_input *input,
-                      double weight, double *sum) {
-    const wf_resampler *rs = f->rs;
-    size_t count = wf_columns_of(rs);
-    size_t skipped = (size_t)(term->row - input->here.y0) * input->line_stride +
-                     (size_t)(rs->columns.first - input->here.x0);
-    for (int c = 0; c < rs->desc.channels; c++, sum += count)
-        rs->ops->begin_float(sum, (const float *)input->plane[c] + skipped, weight, count);
 }
 
 static void add_samples(const wf_field *f, const wf_term *term, const wf_band_input *input,
@@ -301,7 +317,9 @@ static void add_samples(const wf_field *f, const wf_term *term, const wf_band_in
         if (input->half)
             rs->ops->add_half(to, (const uint16_t *)(const void *)pixel, weight, count);
         else
-            rs->ops->add_float(to, (const float *)(const void *)pixel, weight, count);
+            rs->ops->add_floats(to, false,
+                                (const float *[]){(const float *)(const void *)pixel}, &weight,
+                                1, count);
     }
 }
 
@@ -322,50 +340,86 @@ static double *begun_sum(const wf_resampler *rs, wf_scratch *s, int slot, int su
     return begun;
 }
 
-static void add_term(wf_field *f, const wf_term *term, const wf_band_input *input,
+static void add_term(const wf_field *f, const wf_term *term, const wf_band_input *input,
                      double weight, int sum, wf_scratch *s, int slot) {
     const wf_resampler *rs = f->rs;
     bool opaque = rs->desc.channels == 4 && input->channels < 4;
-    count_weight(f, term, input, weight);
     if (!opaque && !has_samples(rs, term, input)) return;
-    bool *live = &s->live[(size_t)slot * s->slot_sums + (size_t)sum];
-    if (!*live && has_samples(rs, term, input) && fills_sum(rs, input)) {
-        begin_sum(f, term, input, weight, slot_sum(s, slot, sum));
-        *live = true;
-        return;
-    }
     double *to = begun_sum(rs, s, slot, sum);
     if (has_samples(rs, term, input)) add_samples(f, term, input, weight, to);
     if (opaque) add_where_samples_exist(rs, term, input, weight, to + 3 * wf_columns_of(rs));
 }
 
+/* Rows that are added to one sum together: where they begin in each plane. */
+enum { MOST_TOGETHER = 16 };
+typedef struct rows_together {
+    size_t count, at[MOST_TOGETHER];
+    double weight[MOST_TOGETHER];
+} rows_together;
+
+static void add_together(const wf_resampler *rs, const wf_band_input *input,
+                         rows_together *rows, int sum, wf_scratch *s, int slot) {
+    double *to = slot_sum(s, slot, sum);
+    bool *live = &s->live[(size_t)slot * s->slot_sums + (size_t)sum];
+    size_t columns = wf_columns_of(rs);
+    for (int c = 0; rows->count && c < rs->desc.channels; c++, to += columns) {
+        const float *row[MOST_TOGETHER];
+        for (size_t r = 0; r < rows->count; r++)
+            row[r] = (const float *)input->plane[c] + rows->at[r];
+        rs->ops->add_floats(to, !*live, row, rows->weight, rows->count, columns);
+    }
+    *live |= rows->count > 0;
+    rows->count = 0;
+}
+
+static void join(const wf_resampler *rs, const wf_term *term, const wf_band_input *input,
+                 double weight, rows_together *rows) {
+    if (!has_samples(rs, term, input)) return;
+    rows->weight[rows->count] = weight;
+    rows->at[rows->count++] = (size_t)(term->row - input->here.y0) * input->line_stride +
+                              (size_t)(rs->columns.first - input->here.x0);
+}
+
 void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
     const wf_band *b = &f->weights->bands[band];
+    bool together = fills_sums(f->rs, input);
+    rows_together rows = {0};
     for (int t = b->terms.first; t < b->terms.end; t++) {
         const wf_term *term = &f->weights->terms[t];
+        int sum = term->sum - b->sums.first;
         double weight = weight_of_all(f, term, input);
-        if (weight != 0) add_term(f, term, input, weight, term->sum - b->sums.first, s, slot);
+        if (weight != 0) count_weight(f, term, input, weight);
+        if (weight != 0 && together) join(f->rs, term, input, weight, &rows);
+        if (weight != 0 && !together) add_term(f, term, input, weight, sum, s, slot);
+        bool ends = t + 1 == b->terms.end || term[1].sum != term->sum;
+        if (ends || rows.count == MOST_TOGETHER)
+            add_together(f->rs, input, &rows, sum, s, slot);
     }
 }
 
-static void finish_sum(wf_field *f, int sum, const double *from) {
-    const wf_resampler *rs = f->rs;
-    float *done = f->done + (size_t)sum * wf_done_samples(rs);
+static void finish_sum(const wf_resampler *rs, const double *from, float *done) {
     for (size_t c = 0; c < (size_t)rs->desc.channels; c++)
         rs->ops->split(done + c * wf_row_samples(rs), from + c * wf_columns_of(rs),
                        (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
 }
 
-void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot) {
+void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot, bool at_once) {
     const wf_band *b = &f->weights->bands[band];
-    size_t samples = wf_sum_samples(f->rs);
+    size_t samples = wf_sum_samples(f->rs), done = wf_done_samples(f->rs);
     const bool *live = s->live + (size_t)slot * s->slot_sums;
+    at_once = at_once && f->last;
+    s->held.field = at_once ? f : NULL;
+    s->held.index = f->index;
+    s->held.sums = b->sums;
     for (int sum = b->sums.first; sum < b->sums.end; sum++) {
-        const double *from = slot_sum(s, slot, sum - b->sums.first);
-        f->touched[sum] = *live++;
+        int of_band = sum - b->sums.first;
+        const double *from = slot_sum(s, slot, of_band);
+        f->touched[sum] = live[of_band];
         if (!f->touched[sum]) continue;
-        if (f->last)
-            finish_sum(f, sum, from);
+        if (at_once && f->weights->whole[sum])
+            finish_sum(f->rs, from, s->held.done + (size_t)of_band * done);
+        else if (f->last)
+            finish_sum(f->rs, from, f->done + (size_t)sum * done);
         else
             memcpy(f->carry + (size_t)sum * samples, from, samples * sizeof *from);
     }

@@ -3,20 +3,32 @@
 
 #include "filters/resample/resampler_inside.h"
 
-static const float *done_row(const wf_field *f, int tap, int channel) {
-    return f->done + (size_t)f->weights->taps[tap].sum * wf_done_samples(f->rs) +
+static const float *done_row(const wf_field *f, const wf_scratch *s, int tap, int channel) {
+    int sum = f->weights->taps[tap].sum;
+    const wf_held *held = &s->held;
+    bool at_hand = held->field == f && held->index == f->index && sum >= held->sums.first &&
+                   sum < held->sums.end && f->weights->whole[sum];
+    const float *done = at_hand ? held->done : f->done;
+    return done + (size_t)(at_hand ? sum - held->sums.first : sum) * wf_done_samples(f->rs) +
            (size_t)channel * wf_row_samples(f->rs);
 }
 
-/* One channel of the sums of some taps: all of them go through the same kernel. False if no
- * sample was added to any. */
-static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
+/* Whether a sample was added to any of the sums of these taps. */
+static bool any_touched(const wf_field *f, wf_span taps) {
+    bool any = false;
+    for (int t = taps.first; t < taps.end; t++) any |= f->touched[f->weights->taps[t].sum];
+    return any;
+}
+
+/* One channel of the sums of some taps: all of them go through the same kernel. */
+static void add_up(const wf_field *f, const wf_scratch *s, wf_span taps, int channel,
+                   double *row) {
     const wf_resampler *rs = f->rs;
     const float *first = NULL;
     int found = 0;
     for (int t = taps.first; t < taps.end; t++) {
         if (!f->touched[f->weights->taps[t].sum]) continue;
-        const float *sum = done_row(f, t, channel);
+        const float *sum = done_row(f, s, t, channel);
         if (++found == 1)
             first = sum;
         else if (found == 2)
@@ -25,29 +37,57 @@ static bool add_up(const wf_field *f, wf_span taps, int channel, double *row) {
             rs->ops->add_row(row, sum, wf_row_samples(rs));
     }
     if (found == 1) rs->ops->set_rows(row, first, NULL, wf_row_samples(rs));
-    return found > 0;
 }
 
-/* Pixels of one phase side by side: out[r][m] += sum over t of weight[r][t] row[cell], for
- * pixel phases * m + r. */
-static void filter_phases(const wf_resampler *rs, const double *weight, const double *row,
-                          double *out) {
-    double reach = rs->desc.aperture.reach_u;
-    if (rs->phases == 1 && rs->lanes == 1) {
-        int first = wf_axis_reach(&rs->x, reach, 0).first - rs->columns.first;
-        rs->ops->add_taps(out, row + first, weight, (size_t)rs->taps, (size_t)rs->x.pixels);
-        return;
-    }
+/* The sums of a line that share a kernel. */
+typedef struct group {
+    wf_span taps;
+    int number;
+} group;
+
+/* False: there is none after it. */
+static bool next_group(const wf_field *f, int line, group *g) {
+    const wf_tap *taps = f->weights->taps;
+    int end = f->weights->line_taps[line].end;
+    g->taps.first = g->taps.end;
+    g->number++;
+    while (g->taps.end < end && taps[g->taps.end].kernel == taps[g->taps.first].kernel)
+        g->taps.end++;
+    return g->taps.first < end;
+}
+
+static group before_first(const wf_field *f, int line) {
+    int first = f->weights->line_taps[line].first;
+    return (group){{first, first}, -1};
+}
+
+static double *row_of(const wf_scratch *s, const group *g) {
+    return s->rows + (size_t)g->number * wf_row_samples(s->rs);
+}
+
+/* Pixels of one phase side by side: pixel phases * m + r takes weight[r][t] of row[cell]. */
+static void add_strands(const group *g, const wf_kernel *kernel, wf_scratch *s) {
+    const wf_resampler *rs = s->rs;
+    size_t most = s->most_kernels * (size_t)rs->taps;
     for (int r = 0; r < rs->phases; r++) {
-        size_t count = (size_t)((rs->x.pixels - r + rs->phases - 1) / rs->phases);
-        int first = wf_axis_reach(&rs->x, reach, r).first - rs->columns.first;
+        int first = wf_axis_reach(&rs->x, rs->desc.aperture.reach_u, r).first;
         for (int t = 0; t < rs->taps; t++) {
-            double w = weight[r * rs->taps + t];
-            if (w == 0) continue;
-            int cell = first + t, lane = cell % rs->lanes, at = cell / rs->lanes;
-            rs->ops->add_tap(out + (size_t)r * wf_run_length(rs),
-                             row + lane * rs->lane_length + at, w, count);
+            double weight = kernel->weight[r * rs->taps + t];
+            if (weight == 0) continue;
+            int cell = first - rs->columns.first + t;
+            const double *row =
+                row_of(s, g) + cell % rs->lanes * rs->lane_length + cell / rs->lanes;
+            s->strands[(size_t)r * most + s->strand_counts[r]++] = (wf_strand){row, weight};
         }
+    }
+}
+
+static void filter_phases(const wf_resampler *rs, const wf_scratch *s, double *out) {
+    size_t most = s->most_kernels * (size_t)rs->taps;
+    for (size_t r = 0; r < (size_t)rs->phases; r++) {
+        size_t count = ((size_t)rs->x.pixels - r + (size_t)rs->phases - 1) / (size_t)rs->phases;
+        rs->ops->weave(out + r * wf_run_length(rs), s->strands + r * most, s->strand_counts[r],
+                       count);
     }
 }
 
@@ -85,34 +125,71 @@ static void add_overscan(const wf_field *f, wf_span taps, const wf_kernel *kerne
     }
 }
 
-static void add_totals(const wf_field *f, wf_span taps, const wf_kernel *kernel,
-                       wf_scratch *s) {
-    double inside = 0, exists = 0;
+static wf_total total_of(const wf_field *f, wf_span taps) {
+    wf_total total = {.kernel = f->weights->taps[taps.first].kernel};
     for (int t = taps.first; t < taps.end; t++) {
-        inside += f->inside[f->weights->taps[t].sum];
-        exists += f->exists[f->weights->taps[t].sum];
+        total.inside += f->inside[f->weights->taps[t].sum];
+        total.exists += f->exists[f->weights->taps[t].sum];
     }
+    return total;
+}
+
+/* Whether pixels weigh what those of the line before did, as most lines' do. */
+static bool same_totals(const wf_field *f, int line, wf_scratch *s) {
+    bool same = true;
+    int count = 0;
+    for (group g = before_first(f, line); next_group(f, line, &g); count++) {
+        wf_total total = total_of(f, g.taps), *kept = &s->totals[g.number];
+        same = same && g.number < s->total_count && kept->kernel == total.kernel &&
+               kept->inside == total.inside && kept->exists == total.exists;
+        *kept = total;
+    }
+    same = same && s->total_count == count;
+    s->total_count = f->overscan ? 0 : count;
+    return same && !f->overscan;
+}
+
+static void add_totals(const wf_field *f, const group *g, const wf_kernel *kernel,
+                       wf_scratch *s) {
     const wf_row_ops *ops = f->rs->ops;
-    ops->add_tap(s->inside, kernel->inside, inside, (size_t)f->rs->x.pixels);
-    ops->add_tap(s->exists, kernel->exists, exists, (size_t)f->rs->x.pixels);
-    if (f->overscan) add_overscan(f, taps, kernel, s);
+    const wf_total *total = &s->totals[g->number];
+    ops->add_tap(s->inside, kernel->inside, total->inside, (size_t)f->rs->x.pixels);
+    ops->add_tap(s->exists, kernel->exists, total->exists, (size_t)f->rs->x.pixels);
+    if (f->overscan) add_overscan(f, g->taps, kernel, s);
+}
+
+/* Pixels whose phases are too many for strands. */
+static void add_pixels(const wf_field *f, const group *g, const wf_kernel *kernel,
+                       wf_scratch *s) {
+    const wf_resampler *rs = f->rs;
+    size_t samples = (size_t)rs->phases * wf_run_length(rs);
+    for (int c = 0; c < rs->desc.channels; c++) {
+        add_up(f, s, g->taps, c, row_of(s, g));
+        filter_pixels(rs, kernel->weight, row_of(s, g), s->picture + (size_t)c * samples);
+    }
 }
 
 /* Sums that share a kernel go through it together. */
-static void add_group(const wf_field *f, wf_span taps, wf_scratch *s) {
+static void take_groups(const wf_field *f, int line, wf_scratch *s, bool new_totals) {
     const wf_resampler *rs = f->rs;
-    const wf_kernel *kernel =
-        wf_kernel_ready(rs, f->weights->taps[taps.first].kernel, &s->kernel);
-    size_t samples = (size_t)rs->phases * wf_run_length(rs);
-    for (int c = 0; c < rs->desc.channels; c++) {
-        double *out = s->picture + (size_t)c * samples;
-        if (!add_up(f, taps, c, s->row)) break;
+    for (group g = before_first(f, line); next_group(f, line, &g);) {
+        int kernel = f->weights->taps[g.taps.first].kernel;
+        const wf_kernel *ready = wf_kernel_ready(rs, kernel, &s->kernel);
+        if (new_totals) add_totals(f, &g, ready, s);
+        if (!any_touched(f, g.taps)) continue;
         if (rs->polyphase)
-            filter_phases(rs, kernel->weight, s->row, out);
+            add_strands(&g, ready, s);
         else
-            filter_pixels(rs, kernel->weight, s->row, out);
+            add_pixels(f, &g, ready, s);
     }
-    add_totals(f, taps, kernel, s);
+}
+
+static void weave_channel(const wf_field *f, int line, int channel, wf_scratch *s) {
+    const wf_resampler *rs = f->rs;
+    size_t samples = (size_t)rs->phases * wf_run_length(rs);
+    for (group g = before_first(f, line); next_group(f, line, &g);)
+        if (any_touched(f, g.taps)) add_up(f, s, g.taps, channel, row_of(s, &g));
+    filter_phases(rs, s, s->picture + (size_t)channel * samples);
 }
 
 /* The weighted sum of alpha at pixel i, of all that exists there. */
@@ -145,7 +222,6 @@ static void add_background(const wf_resampler *rs, const wf_scratch *s, float *c
 static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const rgb[3]) {
     const float *background = rs->desc.background;
     size_t run = wf_run_length(rs), phases = (size_t)rs->phases, width = (size_t)rs->x.pixels;
-    rs->ops->invert(s->exists, width);
     if (background[0] != 0 || background[1] != 0 || background[2] != 0) {
         add_background(rs, s, rgb);
         return;
@@ -162,15 +238,14 @@ static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const 
 
 void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[3]) {
     const wf_resampler *rs = f->rs;
-    size_t samples = (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs);
-    memset(s->picture, 0, samples * sizeof *s->picture);
-    memset(s->inside, 0, 2 * (size_t)rs->x.pixels * sizeof *s->inside);
-    wf_span all = f->weights->line_taps[line], group = {all.first, all.first};
-    while (group.end < all.end) {
-        group.first = group.end;
-        int kernel = f->weights->taps[group.first].kernel;
-        while (group.end < all.end && f->weights->taps[group.end].kernel == kernel) group.end++;
-        add_group(f, group, s);
-    }
+    size_t width = (size_t)rs->x.pixels,
+           samples = (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs);
+    bool new_totals = !same_totals(f, line, s);
+    if (new_totals) memset(s->inside, 0, 2 * width * sizeof *s->inside);
+    memset(s->strand_counts, 0, (size_t)rs->phases * sizeof *s->strand_counts);
+    if (!rs->polyphase) memset(s->picture, 0, samples * sizeof *s->picture);
+    take_groups(f, line, s, new_totals);
+    for (int c = 0; rs->polyphase && c < rs->desc.channels; c++) weave_channel(f, line, c, s);
+    if (new_totals) rs->ops->invert(s->exists, width);
     normalize(rs, s, rgb);
 }

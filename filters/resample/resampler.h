@@ -95,11 +95,12 @@ bool wf_field_begin_batch(wf_field *field, bool last, bool overscan);
 
 /* One band of one batch, by one thread: open, add in time order, close. slot < fields_in_flight
  * tells the fields summed side by side apart. Subframes outside the field's window add nothing.
- */
+ * at_once: the lines that this makes ready are finished next, with this scratch and before it
+ * closes another band: what they alone need stays in it. */
 void wf_band_open(const wf_field *field, int band, wf_scratch *scratch, int slot);
 void wf_band_add(wf_field *field, int band, wf_scratch *scratch, int slot,
                  const wf_band_input *input);
-void wf_band_close(wf_field *field, int band, wf_scratch *scratch, int slot);
+void wf_band_close(wf_field *field, int band, wf_scratch *scratch, int slot, bool at_once);
 
 /* Where the batch completes the field: the lines that the band just closed reaches (none
  * otherwise). Each of them is asked about once for each of its bands; when the last of these is

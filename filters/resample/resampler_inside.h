@@ -44,12 +44,15 @@ typedef struct wf_kernel {
 typedef struct wf_weights {
     int lines, first_line, line_step; /* of a field, in frame lines */
     wf_band *bands;                   /* [band_count] */
-    wf_term *terms;                   /* [term_count], by band */
+    wf_term *terms;                   /* [term_count], by band, sum and row */
     wf_tap *taps;                     /* [tap_count], by line and then by kernel */
     wf_span *line_taps;               /* [lines] */
     int *line_bands;                  /* [lines]: how many bands a line reaches */
+    bool *whole;                      /* [sum_count]: whether all lines that take the sum reach
+                                         its band alone */
     int term_count, tap_count, sum_count;
-    int most_sums; /* of any one band */
+    int most_sums;    /* of any one band */
+    int most_kernels; /* that any one line takes sums through */
 } wf_weights;
 
 struct wf_resampler {
@@ -117,6 +120,20 @@ struct wf_field {
                        */
 };
 
+/* Sums that lines were to take at once, of the band closed last: they never leave the cache. */
+typedef struct wf_held {
+    const wf_field *field; /* NULL: there are none */
+    int64_t index;         /* of the field */
+    wf_span sums;
+    float *done; /* [slot_sums][channels][lanes][lane_length], of those that are whole */
+} wf_held;
+
+/* What samples that exist weigh: of all pixels through one kernel. */
+typedef struct wf_total {
+    int kernel;
+    double inside, exists;
+} wf_total;
+
 /* A slot is one of the fields that a thread sums side by side. */
 struct wf_scratch {
     const wf_resampler *rs;
@@ -124,9 +141,16 @@ struct wf_scratch {
     size_t slot_samples; /* of the sums of one slot */
     double *sums;        /* [slots][slot_sums][channels][columns] */
     bool *live;          /* [slots][slot_sums]: the sum has begun; others hold nothing yet */
-    double *row;         /* [lanes][lane_length] */
-    double *picture;     /* [channels][phases][run] */
-    double *inside, *exists; /* [width]: weights of the line in hand */
+    wf_held held;
+    size_t most_kernels;   /* of both parities */
+    double *rows;          /* [most_kernels][lanes][lane_length] */
+    wf_strand *strands;    /* [phases][most_kernels][taps] */
+    size_t *strand_counts; /* [phases] */
+    double *picture;       /* [channels][phases][run] */
+    double *inside;        /* [width]: weights of the line in hand, of the display window */
+    double *exists;        /* [width]: and of all that exists there, turned over */
+    wf_total *totals;      /* [most_kernels]: of what inside and exists are made */
+    int total_count;       /* 0: they are to be made anew */
     wf_kernel kernel;
 };
 

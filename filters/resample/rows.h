@@ -2,28 +2,35 @@
 #ifndef WF_FILTERS_RESAMPLE_ROWS_H
 #define WF_FILTERS_RESAMPLE_ROWS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include "filters/base/isa.h"
+
+/* A row times a weight. */
+typedef struct wf_strand {
+    const double *row;
+    double weight;
+} wf_strand;
 
 /* One table for each level of the processor. Every table gives the same bits: products and sums
  * are rounded separately in double, in the same order, whatever the vector width. */
 typedef struct wf_row_ops {
     /* sum[i] += weight * pixel[i] */
     void (*add_half)(double *sum, const uint16_t *pixel, double weight, size_t count);
-    void (*add_float)(double *sum, const float *pixel, double weight, size_t count);
-    /* sum[i] = 0 + weight * pixel[i] */
-    void (*begin_float)(double *sum, const float *pixel, double weight, size_t count);
+    /* sum[i] += weight[r] * row[r][i] for one of `rows` after another; begins: to 0, not to
+     * what sum holds */
+    void (*add_floats)(double *sum, bool begins, const float *const *row, const double *weight,
+                       size_t rows, size_t count);
     /* sum[i] = a[i] + b[i]; b may be NULL: sum[i] = a[i] */
     void (*set_rows)(double *sum, const float *a, const float *b, size_t count);
     /* sum[i] += pixel[i] */
     void (*add_row)(double *sum, const float *pixel, size_t count);
     /* sum[i] += weight * row[i] */
     void (*add_tap)(double *sum, const double *row, double weight, size_t count);
-    /* sum[i] += weight[t] * row[i + t] for one t < taps after another, but for weights of 0 */
-    void (*add_taps)(double *sum, const double *row, const double *weight, size_t taps,
-                     size_t count);
+    /* sum[i] = 0, and to that weight * row[i] of one strand after another is added */
+    void (*weave)(double *sum, const wf_strand *strand, size_t strands, size_t count);
     /* row[i] = 1 / row[i] */
     void (*invert)(double *row, size_t count);
     /* out[i] = a[i] b[i] */

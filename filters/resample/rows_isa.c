@@ -45,14 +45,34 @@ static void add_half(double *restrict sum, const uint16_t *restrict pixel, doubl
     for (; i < count; i++) sum[i] += weight * (double)half_value(pixel[i]);
 }
 
-static void add_float(double *restrict sum, const float *restrict pixel, double weight,
-                      size_t count) {
-    for (size_t i = 0; i < count; i++) sum[i] += weight * (double)pixel[i];
+/* What stays in registers while all that is to be added is added. */
+typedef double doubles __attribute__((vector_size(64), aligned(8), may_alias));
+typedef float floats __attribute__((vector_size(32), aligned(4), may_alias));
+enum { DOUBLES = 8, BESIDE = 4 };
+
+/* Vectors are passed between functions of this file only, which are inlined. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+static inline doubles wide(const float *from) {
+    return __builtin_convertvector(*(const floats *)from, doubles);
 }
 
-static void begin_float(double *restrict sum, const float *restrict pixel, double weight,
-                        size_t count) {
-    for (size_t i = 0; i < count; i++) sum[i] = 0 + weight * (double)pixel[i];
+static void add_floats(double *restrict sum, bool begins, const float *const *row,
+                       const double *weight, size_t rows, size_t count) {
+    size_t i = 0;
+    for (; i + BESIDE * DOUBLES <= count; i += BESIDE * DOUBLES) {
+        doubles *to = (doubles *)(sum + i), kept[BESIDE];
+        for (int b = 0; b < BESIDE; b++) kept[b] = begins ? (doubles){0} : to[b];
+        for (size_t r = 0; r < rows; r++)
+            for (int b = 0; b < BESIDE; b++)
+                kept[b] += weight[r] * wide(row[r] + i + b * DOUBLES);
+        for (int b = 0; b < BESIDE; b++) to[b] = kept[b];
+    }
+    for (; i < count; i++) {
+        double kept = begins ? 0 : sum[i];
+        for (size_t r = 0; r < rows; r++) kept += weight[r] * (double)row[r][i];
+        sum[i] = kept;
+    }
 }
 
 static void set_rows(double *restrict sum, const float *restrict a, const float *restrict b,
@@ -72,28 +92,22 @@ static void add_tap(double *restrict sum, const double *restrict row, double wei
     for (size_t i = 0; i < count; i++) sum[i] += weight * row[i];
 }
 
-/* What stays in registers while all taps are added to it. */
-typedef double doubles __attribute__((vector_size(64), aligned(8), may_alias));
-enum { DOUBLES = 8, BESIDE = 4 };
-
-/* Vectors are passed between functions of this file only, which are inlined. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-static void add_taps(double *restrict sum, const double *restrict row, const double *weight,
-                     size_t taps, size_t count) {
+static void weave(double *restrict sum, const wf_strand *strand, size_t strands, size_t count) {
     size_t i = 0;
     for (; i + BESIDE * DOUBLES <= count; i += BESIDE * DOUBLES) {
         doubles *to = (doubles *)(sum + i), kept[BESIDE];
-        for (int b = 0; b < BESIDE; b++) kept[b] = to[b];
-        for (size_t t = 0; t < taps; t++) {
-            const doubles *from = (const doubles *)(row + i + t);
-            if (weight[t] == 0) continue;
-            for (int b = 0; b < BESIDE; b++) kept[b] += weight[t] * from[b];
+        for (int b = 0; b < BESIDE; b++) kept[b] = (doubles){0};
+        for (size_t s = 0; s < strands; s++) {
+            const doubles *from = (const doubles *)(strand[s].row + i);
+            for (int b = 0; b < BESIDE; b++) kept[b] += strand[s].weight * from[b];
         }
         for (int b = 0; b < BESIDE; b++) to[b] = kept[b];
     }
-    for (size_t t = 0; t < taps; t++)
-        if (weight[t] != 0) add_tap(sum + i, row + i + t, weight[t], count - i);
+    for (; i < count; i++) {
+        double kept = 0;
+        for (size_t s = 0; s < strands; s++) kept += strand[s].weight * strand[s].row[i];
+        sum[i] = kept;
+    }
 }
 
 static void invert(double *row, size_t count) {
@@ -122,12 +136,11 @@ static void split(float *restrict lane, const double *restrict row, size_t lanes
 
 const wf_row_ops WF_ISA_TABLE(wf_row_ops) = {
     .add_half = add_half,
-    .add_float = add_float,
-    .begin_float = begin_float,
+    .add_floats = add_floats,
     .set_rows = set_rows,
     .add_row = add_row,
     .add_tap = add_tap,
-    .add_taps = add_taps,
+    .weave = weave,
     .invert = invert,
     .multiply = multiply,
     .split = split,

@@ -76,6 +76,12 @@ static bool add_row(builder *b, int row, int *top_line) {
     return true;
 }
 
+static int by_sum_then_row(const void *left, const void *right) {
+    const wf_term *a = left, *b = right;
+    return a->sum != b->sum ? (a->sum > b->sum) - (a->sum < b->sum)
+                            : (a->row > b->row) - (a->row < b->row);
+}
+
 static bool add_band(builder *b, int index, int *top_line) {
     wf_weights *w = b->weights;
     wf_band *band = &w->bands[index];
@@ -87,6 +93,8 @@ static bool add_band(builder *b, int index, int *top_line) {
         if (!add_row(b, row, top_line)) return false;
     band->terms.end = w->term_count;
     band->sums.end = w->sum_count;
+    qsort(w->terms + band->terms.first, (size_t)(band->terms.end - band->terms.first),
+          sizeof *w->terms, by_sum_then_row);
     int sums = band->sums.end - band->sums.first;
     if (sums > w->most_sums) w->most_sums = sums;
     return true;
@@ -99,12 +107,23 @@ static int by_line_then_kernel(const void *left, const void *right) {
     return (a->sum > b->sum) - (a->sum < b->sum);
 }
 
+static int kernels_of(const wf_weights *w, wf_span taps) {
+    int count = 0;
+    for (int t = taps.first; t < taps.end; t++)
+        count += t == taps.first || w->taps[t].kernel != w->taps[t - 1].kernel;
+    return count;
+}
+
 static void index_taps(wf_weights *w) {
     qsort(w->taps, (size_t)w->tap_count, sizeof *w->taps, by_line_then_kernel);
     for (int t = 0; t < w->tap_count; t++) {
         wf_span *span = &w->line_taps[w->taps[t].line];
         if (!span->end) span->first = t;
         span->end = t + 1;
+    }
+    for (int line = 0; line < w->lines; line++) {
+        int kernels = kernels_of(w, w->line_taps[line]);
+        if (kernels > w->most_kernels) w->most_kernels = kernels;
     }
 }
 
@@ -124,6 +143,15 @@ static void index_bands(builder *b) {
     }
 }
 
+static bool find_whole(wf_weights *w) {
+    w->whole = malloc((size_t)w->sum_count * sizeof *w->whole);
+    if (!w->whole) return false;
+    for (int sum = 0; sum < w->sum_count; sum++) w->whole[sum] = true;
+    for (int t = 0; t < w->tap_count; t++)
+        if (w->line_bands[w->taps[t].line] > 1) w->whole[w->taps[t].sum] = false;
+    return true;
+}
+
 static bool build(builder *b) {
     wf_weights *w = b->weights;
     for (int line = 0; line < w->lines; line++)
@@ -134,7 +162,7 @@ static bool build(builder *b) {
         if (!add_band(b, band, &top_line)) return false;
     index_taps(w);
     index_bands(b);
-    return true;
+    return find_whole(w);
 }
 
 bool wf_weights_build(wf_resampler *rs, int parity) {
@@ -162,4 +190,5 @@ void wf_weights_release(wf_weights *w) {
     free(w->taps);
     free(w->line_taps);
     free(w->line_bands);
+    free(w->whole);
 }

@@ -96,7 +96,7 @@ static void make_field(field_bench *b) {
             for (int c = 0; c < 3; c++) in.plane[c] = at(b, k, c, here.y0);
             if (here.y0 < here.y1) wf_band_add(b->field, band, b->scratch, 0, &in);
         }
-        wf_band_close(b->field, band, b->scratch, 0);
+        wf_band_close(b->field, band, b->scratch, 0, false);
     }
     wf_field_end_batch(b->field);
 }

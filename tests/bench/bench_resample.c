@@ -29,7 +29,7 @@ static void add_field(const wf_resampler *rs, wf_field *field, wf_scratch *scrat
             for (int c = 0; c < 3; c++) in.plane[c] = pixel + (c * 16 * CELLS_X);
             if (here.y0 < here.y1) wf_band_add(field, band, scratch, 0, &in);
         }
-        wf_band_close(field, band, scratch, 0);
+        wf_band_close(field, band, scratch, 0, false);
     }
     wf_field_end_batch(field);
 }

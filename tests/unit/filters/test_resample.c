@@ -174,12 +174,10 @@ static void add_subframe(wf_field *field, const movie *m, int band, wf_span rows
     wf_band_add(field, band, scratch, 0, &in);
 }
 
-/* One field, its window read in batches of batch_size subframes. */
-static wf_field *resample(const wf_resampler *rs, const movie *m, int64_t index, int batch_size,
-                          wf_scratch *scratch) {
-    wf_field *field = wf_field_new(rs, index);
-    assert_non_null(field);
-    wf_window window = wf_resampler_window(rs, index);
+/* All of a field, its window read in batches of batch_size subframes. */
+static void add_window(const wf_resampler *rs, const movie *m, wf_field *field, int batch_size,
+                       wf_scratch *scratch) {
+    wf_window window = wf_resampler_window(rs, wf_field_index(field));
     bool overscan = wf_resampler_overscan(rs, &m->data);
     for (int64_t k = window.first, past = k + window.count; k < past; k += batch_size) {
         int64_t end = k + batch_size < past ? k + batch_size : past;
@@ -188,11 +186,18 @@ static wf_field *resample(const wf_resampler *rs, const movie *m, int64_t index,
             wf_band_open(field, band, scratch, 0);
             for (int64_t i = k; i < end; i++)
                 add_subframe(field, m, band, wf_resampler_band_rows(rs, band), i, scratch);
-            wf_band_close(field, band, scratch, 0);
+            wf_band_close(field, band, scratch, 0, false);
         }
         wf_field_end_batch(field);
     }
     assert_true(wf_field_complete(field));
+}
+
+static wf_field *resample(const wf_resampler *rs, const movie *m, int64_t index, int batch_size,
+                          wf_scratch *scratch) {
+    wf_field *field = wf_field_new(rs, index);
+    assert_non_null(field);
+    add_window(rs, m, field, batch_size, scratch);
     return field;
 }
 
@@ -441,6 +446,65 @@ static void batches_do_not_change_bits(void **state) {
     }
 }
 
+/* Every line of a field is finished with the last of its bands, which come from the bottom up.
+ */
+static void take_at_once(const wf_resampler *rs, const movie *m, wf_field *field,
+                         wf_scratch *scratch, float taken[][3][24]) {
+    wf_window window = wf_resampler_window(rs, wf_field_index(field));
+    assert_true(wf_field_begin_batch(field, true, false));
+    for (int band = wf_resampler_bands(rs); band-- > 0;) {
+        wf_band_open(field, band, scratch, 0);
+        for (int64_t k = window.first; k < window.first + window.count; k++)
+            add_subframe(field, m, band, wf_resampler_band_rows(rs, band), k, scratch);
+        wf_band_close(field, band, scratch, 0, true);
+        wf_span lines = wf_band_lines(field, band);
+        for (int l = lines.first; l < lines.end; l++)
+            if (wf_field_line_ready(field, l))
+                wf_field_line(field, l, scratch,
+                              (float *[3]){taken[l][0], taken[l][1], taken[l][2]});
+    }
+    wf_field_end_batch(field);
+    assert_true(wf_field_lines_taken(field));
+}
+
+static void lines_taken_at_once_have_the_same_bits(void **state) {
+    (void)state;
+    for (size_t a = 0; a < sizeof apertures / sizeof *apertures; a += (size_t)test_step(3)) {
+        scenario s = plain;
+        s.aperture = apertures[a];
+        wf_raster raster;
+        char why[512];
+        wf_resample_desc desc = describe(&s, &raster);
+        desc.band_rows = 11; /* of which there are whole lines' */
+        movie m = make_movie(s.cells_x, s.cells_y, s.subframes, s.data, 3, 5);
+        wf_resampler *rs;
+        must(wf_resampler_new(&desc, &rs, why, sizeof why), why);
+        wf_scratch *scratch = wf_scratch_new(rs, 1), *other = wf_scratch_new(rs, 1);
+        wf_field *taken = wf_field_new(rs, 0);
+        for (int64_t n = 0; n < 4; n++) { /* in the memory of the one before */
+            float lines[8][3][24], later[3][24], *rgb[3] = {later[0], later[1], later[2]};
+            wf_field *whole = resample(rs, &m, n, 64, other);
+            assert_true(n == 0 || wf_field_renew(taken, n));
+            if (n < 2)
+                take_at_once(rs, &m, taken, scratch, lines);
+            else /* what the scratch has of an earlier field is not this one's */
+                add_window(rs, &m, taken, 64, other);
+            for (int l = 0; l < 8; l++) {
+                float *late[3] = {lines[l][0], lines[l][1], lines[l][2]};
+                if (n >= 2) wf_field_line(taken, l, scratch, late);
+                wf_field_line(whole, l, other, rgb);
+                assert_memory_equal(lines[l], later, sizeof later);
+            }
+            wf_field_free(whole);
+        }
+        wf_field_free(taken);
+        wf_scratch_free(scratch);
+        wf_scratch_free(other);
+        wf_resampler_free(rs);
+        free(m.pixel);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_aperture_position_and_width),
@@ -450,6 +514,7 @@ int main(void) {
         cmocka_unit_test(fits),
         cmocka_unit_test(constants_stay_constant),
         cmocka_unit_test(batches_do_not_change_bits),
+        cmocka_unit_test(lines_taken_at_once_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

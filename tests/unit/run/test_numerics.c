@@ -71,7 +71,7 @@ static void add_field(const wf_resampler *rs, wf_field *field, wf_scratch *scrat
                               size * CELLS_X * ((size_t)c * CELLS_Y + (size_t)here.y0);
             if (here.y0 < here.y1) wf_band_add(field, band, scratch, 0, &in);
         }
-        wf_band_close(field, band, scratch, 0);
+        wf_band_close(field, band, scratch, 0, false);
     }
     wf_field_end_batch(field);
 }

@@ -31,19 +31,18 @@ static void add_all_halves(level_run *r) {
     level_keep_doubles(r, sum, 8192);
 }
 
-static void add_float(level_run *r) {
-    double *sum = level_doubles(r, r->count), weight = level_uniform(r, -1, 1);
-    float *pixel = level_floats(r, r->count);
-    if (!r->plain) wf_row_ops_at(r->level)->add_float(sum, pixel, weight, r->count);
-    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] += weight * (double)pixel[i];
-    level_keep_doubles(r, sum, r->count);
-}
-
-static void begin_float(level_run *r) {
-    double *sum = level_doubles(r, r->count), weight = level_uniform(r, -1, 1);
-    float *pixel = level_floats(r, r->count);
-    if (!r->plain) wf_row_ops_at(r->level)->begin_float(sum, pixel, weight, r->count);
-    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] = 0 + weight * (double)pixel[i];
+static void add_floats(level_run *r) {
+    size_t rows = level_draw(r) % 6;
+    double *sum = level_doubles(r, r->count), *weight = level_doubles(r, rows);
+    const float *row[6];
+    bool begins = level_draw(r) % 2;
+    for (size_t n = 0; n < rows; n++) row[n] = level_floats(r, r->count);
+    if (!r->plain)
+        wf_row_ops_at(r->level)->add_floats(sum, begins, row, weight, rows, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        if (begins) sum[i] = 0;
+        for (size_t n = 0; n < rows; n++) sum[i] += weight[n] * (double)row[n][i];
+    }
     level_keep_doubles(r, sum, r->count);
 }
 
@@ -73,15 +72,17 @@ static void add_tap(level_run *r) {
     level_keep_doubles(r, sum, r->count);
 }
 
-static void add_taps(level_run *r) {
-    size_t taps = level_draw(r) % 8;
-    double *sum = level_doubles(r, r->count), *row = level_doubles(r, r->count + taps);
-    double *weight = level_doubles(r, taps);
-    if (taps > 2) weight[level_draw(r) % (uint32_t)taps] = 0;
-    if (!r->plain) wf_row_ops_at(r->level)->add_taps(sum, row, weight, taps, r->count);
-    for (size_t t = 0; r->plain && t < taps; t++)
-        for (size_t i = 0; i < r->count; i++)
-            if (weight[t] != 0) sum[i] += weight[t] * row[i + t];
+static void weave(level_run *r) {
+    size_t strands = level_draw(r) % 8;
+    double *sum = level_doubles(r, r->count), *row = level_doubles(r, r->count + strands);
+    wf_strand strand[8];
+    for (size_t t = 0; t < strands; t++)
+        strand[t] = (wf_strand){row + (t * 3) % (strands + 1), level_number(r)};
+    if (!r->plain) wf_row_ops_at(r->level)->weave(sum, strand, strands, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        sum[i] = 0;
+        for (size_t t = 0; t < strands; t++) sum[i] += strand[t].weight * strand[t].row[i];
+    }
     level_keep_doubles(r, sum, r->count);
 }
 
@@ -114,12 +115,11 @@ static void split(level_run *r) {
 }
 
 static const level_row rows[] = {
-    {"rows.add_half", add_half, true, 0},   {"rows.add_half of all", add_all_halves, true, 0},
-    {"rows.add_float", add_float, true, 0}, {"rows.set_rows", set_rows, true, 0},
-    {"rows.add_row", add_row, true, 0},     {"rows.add_tap", add_tap, true, 0},
-    {"rows.invert", invert, true, 0},       {"rows.multiply", multiply, true, 0},
-    {"rows.split", split, true, 0},         {"rows.begin_float", begin_float, true, 0},
-    {"rows.add_taps", add_taps, true, 0},
+    {"rows.add_half", add_half, true, 0},     {"rows.add_half of all", add_all_halves, true, 0},
+    {"rows.add_floats", add_floats, true, 0}, {"rows.set_rows", set_rows, true, 0},
+    {"rows.add_row", add_row, true, 0},       {"rows.add_tap", add_tap, true, 0},
+    {"rows.invert", invert, true, 0},         {"rows.multiply", multiply, true, 0},
+    {"rows.split", split, true, 0},           {"rows.weave", weave, true, 0},
 };
 
 /* ---- Apertures ---- */
