@@ -57,6 +57,9 @@ weft_status wf_setup_video(const weft_job *job, wf_setup *setup, weft_error *err
  * what was left out or added, after the last frame. (setup_sound.c) */
 weft_status wf_setup_sound(const weft_job *job, wf_setup *setup, wf_taken_list *taken,
                            weft_error *err);
+/* Asks for the sound of the job's input, a file of video, where there is some and the output,
+ * which is of a kind that exists, holds it; else it is told that it is left out. */
+weft_status wf_setup_keep_sound(weft_job *job, weft_error *err);
 weft_status wf_setup_begin_sound(const wf_setup *setup, weft_error *err);
 void wf_setup_tell_sound(const wf_setup *setup);
 

@@ -1,4 +1,6 @@
 /* The sound of a run: opened before the output is settled, begun when the frames are known. */
+#include <string.h>
+
 #include "convert/finish/setup.h"
 #include "convert/job/delivery.h"
 #include "convert/sound/sound.h"
@@ -12,6 +14,17 @@ weft_status wf_setup_sound(const weft_job *job, wf_setup *s, wf_taken_list *take
     weft_status status = delivery ? wf_sound_open(job, delivery, &s->sound, err) : WEFT_OK;
     if (!status && s->sound) wf_take(taken, "audio", wf_sound_text(s->sound, text), "option");
     return status;
+}
+
+weft_status wf_setup_keep_sound(weft_job *job, weft_error *err) {
+    char text[WF_SOUND_TEXT];
+    const wf_output_kind *kind = wf_output_for(job->output, job->codec, err).kind;
+    wf_sound_in(job->inputs[0], text);
+    if (!*text || !strcmp(text, "none")) return WEFT_OK;
+    if (kind->container) return weft_job_set(job, "audio", "copy", err);
+    wf_job_warn(job, "%.500s: %s has no sound, and that of the input is left out", job->output,
+                kind->name);
+    return WEFT_OK;
 }
 
 weft_status wf_setup_begin_sound(const wf_setup *s, weft_error *err) {

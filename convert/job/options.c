@@ -181,7 +181,7 @@ static const wf_option_row rows[] = {
         "encoded is as near to light as they can come.",
         set_choice, AT(key_law), .base = WF_KEY_CHOICE_LIGHT),
 
-    ROW(files, VIDEO, "codec", "NAME", "the container's",
+    ROW(files, VIDEO | COMPOSITE, "codec", "NAME", "the container's",
         "What .mov, .mp4, .mxf and .mkv hold: v210, prores, dnxhd, xdcamhd422, h264 and "
         "others; a "
         "wrong name lists them.",
@@ -190,12 +190,12 @@ static const wf_option_row rows[] = {
         "Sound in .mov, .mxf, .mkv and, as AAC, .mp4, at 48 kHz: the input video's, that of a "
         "file (from so many seconds on), N tracks of silence or of 1 kHz at -18 dBFS.",
         set_audio, TEXT(audio), INITIAL),
-    ROW(files, VIDEO, "audio-tracks", "N", "one a channel",
+    ROW(files, VIDEO | COMPOSITE, "audio-tracks", "N", "one a channel",
         "How many tracks of sound are written: channels beyond them are left out, tracks "
         "beyond "
         "the channels are silent.",
         set_whole, AT(audio_tracks), FROM(1, WF_SOUND_TRACKS, ", whole")),
-    ROW(files, VIDEO, "audio-bits", "16|24|32", "24",
+    ROW(files, VIDEO | COMPOSITE, "audio-bits", "16|24|32", "24",
         "Bits of a sample of sound; 32 in .mov and .mkv; AAC has none.", set_bits,
         AT(audio_bits), INITIAL),
     ROW(files, VIDEO, "fields", "woven|separate", "woven",

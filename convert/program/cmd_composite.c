@@ -9,7 +9,7 @@
 #include "convert/run/broadcast.h"
 
 typedef struct composite_state {
-    const char *output, *raster, *system, *encoder, *decoder, *progress;
+    const char *output, *raster, *system, *encoder, *decoder, *audio, *progress;
     bool quiet;
     wf_meter meter;
 } composite_state;
@@ -40,6 +40,7 @@ static weft_status settle(composite_state *state, settled *s, weft_error *err) {
     s->system = (wf_tv_system)(system < 0 ? 0 : system);
     s->set = (wf_broadcast){.raster = state->raster ? &s->raster : NULL,
                             .system = system < 0 ? NULL : &s->system,
+                            .keep_sound = !state->audio,
                             .encoder = (wf_tv_encoder)encoder,
                             .decoder = (wf_tv_decoder)decoder};
     return WEFT_OK;
@@ -96,7 +97,8 @@ static weft_status read_arguments(const wf_cmd *cmd, int argc, char **argv,
             "is given as a pattern, in quotes: 'shot.####.dpx'",
             argv[1]);
     status = weft_job_add_input(job, argv[0], err);
-    return !status && state->output ? weft_job_set_output(job, state->output, err) : status;
+    if (!status && state->output) status = weft_job_set_output(job, state->output, err);
+    return !status && state->audio ? weft_job_set(job, "audio", state->audio, err) : status;
 }
 
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
@@ -131,11 +133,18 @@ static const wf_cmd_option options[] = {
     {{"raster", "NAME", "as the file says", "What raster the input is in.", coding},
      .offset = offsetof(composite_state, raster)},
     {{"output", "OUTPUT", NULL,
-      "Where to write: .y4m, .v210, .uyvy, or a sequence such as out.####.png (tif, dpx); - is "
-      "Y4M on standard output.",
+      "Where to write: .y4m, .v210, .uyvy, a container, or a sequence such as out.####.png "
+      "(tif, "
+      "dpx); - is Y4M on standard output.",
       writing},
      .letter = 'o',
      .offset = offsetof(composite_state, output)},
+    {{"audio", "none|copy|FILE[:OFFSET]|silent:N|tone:N", "the input's",
+      "Sound in .mov, .mp4, .mxf and .mkv: the input's, none, that of a file, or N tracks of "
+      "silence or "
+      "of a tone.",
+      writing},
+     .offset = offsetof(composite_state, audio)},
     {WF_CMD_PROGRESS(writing), .offset = offsetof(composite_state, progress)},
     {{"quiet", NULL, NULL, "Say nothing but errors.", writing},
      .letter = 'q',
@@ -151,8 +160,10 @@ const wf_cmd wf_cmd_composite = {
         "analog broadcast and tape did. Fine luma near the color subcarrier comes back as\n"
         "false color (cross-color), edges of color as crawling dots (cross-luma).\n"
         "\n"
-        "IN is Y4M, .v210, .uyvy, a picture, a sequence in quotes, or - for Y4M on standard\n"
-        "input. A cheap recorder and an old set:\n"
+        "IN is Y4M, .v210, .uyvy, a container, a picture, a sequence in quotes, or - for Y4M "
+        "on\n"
+        "standard input. Its time code and sound are kept where OUTPUT holds them. A cheap\n"
+        "recorder and an old set:\n"
         "\n"
         "  weft composite shot.y4m -o seen.y4m\n"
         "\n"

@@ -96,6 +96,8 @@ static weft_status pictures_open(wf_video *v, wf_video_label *label, weft_error 
     info->bits = linear ? 32 : 16;
     info->full_range = true;
     info->frames = (int64_t)(p->sequence.count / (size_t)p->fields);
+    snprintf(info->timecode, sizeof info->timecode, "%s", p->first.timecode);
+    info->timecode_rate = p->first.frames;
     *label = (wf_video_label){.rate = info->separate ? p->rate : p->first.rate,
                               .raster = p->first.raster};
     return WEFT_OK;

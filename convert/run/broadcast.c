@@ -14,6 +14,7 @@
 #include "convert/read/video.h"
 #include "convert/finish/frames.h"
 #include "convert/finish/overwrite_check.h"
+#include "convert/run/time/timecode_start.h"
 
 /* ---- Rasters ---- */
 
@@ -111,9 +112,29 @@ static weft_status protect_input(run *r, weft_error *err) {
     return status ? status : wf_refuse_own_inputs(r->job, &r->setup, err);
 }
 
-static weft_status open_output(run *r, weft_error *err) {
+static void keep_timecode(run *r) {
+    const wf_video_info *info = wf_video_info_of(r->video);
+    wf_image_info first = {.timecode_all = info->videos, .frames = info->timecode_rate};
+    if (!wf_ratio_given(first.frames)) first.frames = r->job->raster.frame_rate;
+    snprintf(first.timecode, sizeof first.timecode, "%s", info->timecode);
+    wf_start_timecode(r->job, &r->setup, &first);
+}
+
+static weft_status set_up(run *r, const wf_broadcast *set, weft_error *err) {
+    wf_taken_list taken = {.count = 0};
+    /* Pipes, and frames without a container, have no sound that could be kept. */
+    bool file = wf_video_info_of(r->video)->videos && strcmp(r->job->inputs[0], "-");
+    weft_status status = set->keep_sound && file ? wf_setup_keep_sound(r->job, err) : WEFT_OK;
+    if (!status) status = wf_setup_sound(r->job, &r->setup, &taken, err);
+    if (!status) status = wf_setup_video(r->job, &r->setup, err);
+    if (status) return status;
+    keep_timecode(r);
+    return wf_setup_begin_sound(&r->setup, err);
+}
+
+static weft_status open_output(run *r, const wf_broadcast *set, weft_error *err) {
     int64_t frames = wf_video_info_of(r->video)->frames;
-    weft_status status = wf_setup_video(r->job, &r->setup, err);
+    weft_status status = set_up(r, set, err);
     if (status) return status;
     if (frames < 0 && r->setup.output.kind->sequence && !wf_pattern_is(r->job->output))
         return wf_fail(err, WEFT_USAGE,
@@ -179,7 +200,9 @@ static weft_status show_all(run *r, weft_error *err) {
         status = show_frame(r, frame, err);
         if (!status) status = wf_video_next(r->video, &frame, err);
     }
-    return status ? status : wf_frames_commit(r->frames, err);
+    if (!status) status = wf_frames_commit(r->frames, err);
+    if (!status) wf_setup_tell_sound(&r->setup);
+    return status;
 }
 
 weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error *err) {
@@ -192,7 +215,7 @@ weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error 
     if (!status) status = settle_tv(job, set, &tv, err);
     if (!status) status = wf_job_check(job, err); /* the raster is known now */
     if (!status) status = make_coder(&r, &tv, err);
-    if (!status) status = open_output(&r, err);
+    if (!status) status = open_output(&r, set, err);
     if (!status) status = show_all(&r, err);
     release(&r);
     return status;

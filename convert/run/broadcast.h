@@ -9,13 +9,14 @@
 typedef struct wf_broadcast {
     const wf_raster *raster;    /* of the input; NULL: as the file says */
     const wf_tv_system *system; /* NULL: the raster's */
+    bool keep_sound;            /* the input's, where the output holds sound */
     wf_tv_encoder encoder;
     wf_tv_decoder decoder;
 } wf_broadcast;
 
 /* Takes the job's one input, video of any form that is read, through a coder and a decoder to
- * its output, in the raster it has. Of the job, what concerns the output's codes and running is
- * looked at; its raster becomes the input's. */
+ * its output, in its raster and with its time code. Of the job, what concerns the output's
+ * codes and running is looked at; its raster becomes the input's. */
 weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error *err);
 
 #endif
