@@ -179,12 +179,26 @@ static weft_status examine_nothing(const exam *x) {
     return WEFT_OK;
 }
 
+/* OpenImageIO would take one picture, and libav 5.1 decodes none. Its flag is in the chunk
+ * VP8X, which comes first. */
+static weft_status refuse_animated(const exam *x) {
+    uint8_t chunk[9];
+    if (!read_at(x, 12, chunk, sizeof chunk) || memcmp(chunk, "VP8X", 4) || !(chunk[8] & 2))
+        return WEFT_OK;
+    return wf_fail(x->err, WEFT_FAILED,
+                   "%.700s: it is an animated WebP, which weft does not read; ImageMagick's "
+                   "'convert IN -coalesce OUT.%%04d.png' makes pictures of it, whose rate "
+                   "--subframe-rate gives",
+                   x->path);
+}
+
 static weft_status examine_webp(const exam *x) {
     uint8_t head[12];
     if (read_at(x, 0, head, sizeof head) && !memcmp(head + 8, "WEBP", 4)) {
         uint64_t bytes = (uint64_t)head[4] | (uint64_t)head[5] << 8 | (uint64_t)head[6] << 16 |
                          (uint64_t)head[7] << 24;
-        return bytes + 8 <= x->bytes ? WEFT_OK : damaged(x, "it ends before its picture does");
+        if (bytes + 8 > x->bytes) return damaged(x, "it ends before its picture does");
+        return refuse_animated(x);
     }
     weft_status status = wf_refuse_kind(x->path, x->err);
     return status ? status
@@ -235,6 +249,25 @@ static weft_status examine(const exam *x, const char **format) {
         "%.700s: it does not begin like an EXR, DPX, TIFF, PNG, JPEG, WebP, HDR or TGA, which "
         "are the pictures that weft reads; 'file IN' may tell what it is",
         x->path);
+}
+
+/* The chunk acTL comes before the picture, and says how many there are. */
+static bool tells_animation(FILE *file) {
+    uint8_t head[8], count[4];
+    bool png = fread(head, sizeof head, 1, file) == 1 && !memcmp(head, "\x89PNG\r\n\x1a\n", 8);
+    while (png && fread(head, sizeof head, 1, file) == 1 && memcmp(head + 4, "IDAT", 4)) {
+        if (!memcmp(head + 4, "acTL", 4))
+            return fread(count, sizeof count, 1, file) == 1 && wf_big_endian(count, 4) > 1;
+        if (fseeko(file, (off_t)wf_big_endian(head, 4) + 4, SEEK_CUR)) return false;
+    }
+    return false;
+}
+
+bool wf_is_animated_png(const char *path) {
+    FILE *file = fopen(path, "rbe");
+    bool found = file && tells_animation(file);
+    if (file) fclose(file);
+    return found;
 }
 
 bool wf_begins_as_picture(const char *path) {

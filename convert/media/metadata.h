@@ -46,7 +46,8 @@ typedef struct wf_metadata {
 
     bool has_fiel, has_pasp, has_colr, has_clap; /* QuickTime's atoms */
     int fiel[2];
-    int64_t clean[2]; /* width and lines of clap, in 65536ths */
+    int64_t clean[2];  /* width and lines of clap, in 65536ths */
+    int graphics_mode; /* of the picture, as vmhd has it */
 
     bool has_line_map; /* MXF */
     int line_map[2];

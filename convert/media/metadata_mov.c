@@ -102,11 +102,18 @@ static void read_description(FILE *file, const atom *stsd, kind of, wf_metadata 
     if (of == VIDEO) read_extensions(file, entry.body + ENTRY_BYTES - 8, entry.next, metadata);
 }
 
+static void read_graphics_mode(FILE *file, const atom *vmhd, wf_metadata *metadata) {
+    uint8_t value[2];
+    if (vmhd->next - vmhd->body >= 6 && read_at(file, vmhd->body + 4, value, sizeof value))
+        metadata->graphics_mode = (int)wf_big_endian(value, 2);
+}
+
 static void descend(FILE *file, place p, wf_metadata *metadata) {
     static const char inner[][5] = {"moov", "trak", "mdia", "minf", "stbl"};
     for (atom a; p.depth < DEEPEST && next_atom(file, p.at, p.end, &a); p.at = a.next) {
         bool goes_in = false;
         for (size_t i = 0; i < sizeof inner / sizeof *inner; i++) goes_in |= is(&a, inner[i]);
+        if (is(&a, "vmhd")) read_graphics_mode(file, &a, metadata);
         if (is(&a, "mdia")) p.of = kind_of(file, a.body, a.next);
         if (is(&a, "stsd")) read_description(file, &a, p.of, metadata);
         if (goes_in) descend(file, (place){a.body, a.next, p.depth + 1, p.of}, metadata);

@@ -13,6 +13,10 @@ void wf_video_note_trouble(wf_video *video, const weft_error *why) {
     if (!*video->troubles.missing.text) video->troubles.missing = *why;
 }
 
+int wf_video_planes(const wf_video_options *options, const wf_video_info *info) {
+    return options->want_alpha && info->alpha ? 4 : 3;
+}
+
 size_t wf_video_code_bytes(const wf_video_info *info) {
     return info->bits > 8 ? 2 : 1;
 }

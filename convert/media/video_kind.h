@@ -5,6 +5,7 @@
 
 #include "color/codes/display.h"
 #include "convert/base/fail.h"
+#include "convert/job/choices.h"
 #include "convert/job/output.h"
 
 /* Finished video as it is read, and what each kind of file has to do for it. */
@@ -15,6 +16,7 @@ typedef struct wf_video_options {
     bool want_times;         /* of all pictures: info.times is filled where there are any */
     bool codes_only;         /* wf_video_next is not called */
     bool progressive_only;   /* a later frame that says that it is interlaced is an error */
+    bool want_alpha;         /* as a fourth plane of codes, where there is some */
     bool mends; /* pictures that cannot be decoded are given as missing, instead of an error */
 } wf_video_options;
 
@@ -27,6 +29,7 @@ typedef struct wf_video_tags {
     int primaries, transfer, matrix;
     bool range_said;
     wf_siting siting; /* where it says nothing, that of its kind of stream */
+    bool pictures;    /* a file of animated pictures: they are sRGB where it says nothing */
 } wf_video_tags;
 
 typedef struct wf_video_info {
@@ -36,7 +39,9 @@ typedef struct wf_video_info {
     wf_layout layout;   /* WF_LINEAR: EXR; WF_RGB: other pictures */
     int bits;           /* of a code; 32: floats; 16 for pictures of unknown depth */
     bool full_range;
-    bool alpha;           /* there is some, which is not read */
+    bool alpha;           /* there is some: read as codes of full range, if it is wanted */
+    bool alpha_lost;      /* there is some that this decoder does not show */
+    wf_alpha alpha_said;  /* how the file says that color lies beside it; WF_ALPHA_UNSET: not */
     int videos;           /* streams of video, of which the first is read; 0: not counted */
     int planes;           /* 3, or 1: a lone Y, beside which Cb and Cr are 0 */
     wf_transfer transfer; /* of the display it is made for */
@@ -64,12 +69,12 @@ typedef struct wf_video_info {
  * R'G'B' and Y' from 0 to 1, Cb and Cr from -1/2 to 1/2, linear light as it is. */
 typedef struct wf_video_frame {
     float *plane[3];
-    int width_px[3], lines[3];
-    int64_t index; /* from 0 */
-    bool timed;    /* it says when it is shown: */
-    int64_t ticks; /* from any zero, of info.tick_s */
-    int64_t lasts; /* ticks; 0: it does not say */
-    bool missing;  /* it could not be decoded, and these are its neighbor's codes */
+    int width_px[4], lines[4]; /* of alpha too */
+    int64_t index;             /* from 0 */
+    bool timed;                /* it says when it is shown: */
+    int64_t ticks;             /* from any zero, of info.tick_s */
+    int64_t lasts;             /* ticks; 0: it does not say */
+    bool missing;              /* it could not be decoded, and these are its neighbor's codes */
 } wf_video_frame;
 
 /* What was not as it should be, of the pictures that were given so far. */
@@ -81,6 +86,9 @@ typedef struct wf_video_troubles {
 } wf_video_troubles;
 
 typedef struct wf_video wf_video;
+
+/* How many planes of codes are taken, alpha being the plane 3; a lone Y is one of three. */
+int wf_video_planes(const wf_video_options *options, const wf_video_info *info);
 
 /* How many bytes a code is kept in: 1 where it has 8 bits or fewer, else 2. */
 size_t wf_video_code_bytes(const wf_video_info *info);
@@ -116,7 +124,7 @@ struct wf_video {
     /* Codes are wanted instead of signals: where each plane of them goes, [lines][width_px] of
      * wf_video_code_bytes each; NULL: nowhere, the frame is passed over. */
     bool take_codes;
-    void *code[3];
+    void *code[4];
     wf_video_troubles troubles;
     void *state; /* the kind's */
 };

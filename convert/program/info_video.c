@@ -29,6 +29,7 @@ weft_status wf_info_meaning(const wf_video *video, const char *path, wf_facts *f
     weft_status status = wf_meaning_of(info, path, &meaning, err);
     if (status) return status;
     wf_meaning_take(&meaning, info, &taken);
+    (void)wf_meaning_alpha(info, WF_ALPHA_UNSET, &taken);
     char text[48] = "irregular";
     if (!wf_video_rate(info, path, &rate, NULL)) {
         if (wf_ratio_given(rate)) wf_rate_text(rate, text);

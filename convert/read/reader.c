@@ -300,16 +300,18 @@ static void whole_rows(const wf_subframe *s, int y0, int y1, wf_rows *rows) {
 static weft_status made_rows(wf_reader *r, const wf_subframe *s, int y0, int y1,
                              weft_error *err) {
     wf_box data = s->info.data;
-    r->rows = (wf_rows){.channels = 3, .y0 = y0, .y1 = y1, .x0 = data.x0, .x1 = data.x1};
+    size_t channels = (size_t)s->maker->channels;
+    r->rows = (wf_rows){
+        .channels = s->maker->channels, .y0 = y0, .y1 = y1, .x0 = data.x0, .x1 = data.x1};
     size_t plane = plane_samples(&r->rows);
-    if (!wf_reserve(&r->plain, &r->plain_capacity, 3 * plane * sizeof(float)) ||
+    if (!wf_reserve(&r->plain, &r->plain_capacity, channels * plane * sizeof(float)) ||
         !wf_reserve(&r->tile, &r->tile_capacity, s->maker->scratch_bytes))
         return no_memory(s, err);
     point_at(&r->rows, r->plain);
     for (int y = y0; y < y1; y += s->maker->most_rows) {
         float *at = r->plain + (size_t)(y - y0) * r->rows.line_stride;
         s->maker->rows(s->picture, y, least(y + s->maker->most_rows, y1), r->tile,
-                       (float *[3]){at, at + plane, at + 2 * plane});
+                       (float *[4]){at, at + plane, at + 2 * plane, at + 3 * plane});
     }
     r->decoder.suspect = false;
     return WEFT_OK;

@@ -54,8 +54,9 @@ void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */
 typedef struct wf_row_maker {
     size_t scratch_bytes; /* that `rows` needs, of the reader that calls it */
     int most_rows;        /* that are asked for at once */
-    /* Rows y0 <= y < y1 to rgb[c][(y - y0) width_px]. */
-    void (*rows)(const void *picture, int y0, int y1, void *scratch, float *const rgb[3]);
+    int channels;         /* 3, or 4 with alpha, which color is multiplied by */
+    /* Rows y0 <= y < y1 to plane[c][(y - y0) width_px]. */
+    void (*rows)(const void *picture, int y0, int y1, void *scratch, float *const plane[]);
     void (*close)(void *picture); /* by wf_subframe_close */
 } wf_row_maker;
 

@@ -77,7 +77,8 @@ weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width
         .display = box, .data = box, .pixel_aspect = 1, .band_lines = 32, .whole = true};
     s->maker = maker;
     s->picture = picture;
-    s->layout.channels = 3;
+    s->layout.channels = maker->channels;
+    s->info.has_alpha = maker->channels == 4;
     return WEFT_OK;
 }
 

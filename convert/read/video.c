@@ -149,6 +149,8 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
         return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
     else if (is_y4m(path))
         *kind = &wf_video_y4m;
+    else if (wf_is_animated_png(path))
+        *kind = &wf_video_libav;
     else if ((wf_begins_as_picture(path) && !wf_name_ends_in(path, ".mjpeg") &&
               !wf_name_ends_in(path, ".mjpg")) ||
              (wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif")))
@@ -163,13 +165,14 @@ bool wf_video_is(const char *path) {
 
 static weft_status make_planes(wf_video *v, weft_error *err) {
     const wf_video_info *info = &v->info;
-    for (int p = 0; p < 3; p++) {
-        int across = p ? info->across : 1, down = p ? info->down : 1;
+    for (int p = 0; p < 4; p++) {
+        bool chroma = p == 1 || p == 2;
+        int across = chroma ? info->across : 1, down = chroma ? info->down : 1;
         int width = (info->width_px + across - 1) / across;
         int lines = (info->lines + down - 1) / down;
         v->frame.width_px[p] = width;
         v->frame.lines[p] = lines;
-        if (v->options.codes_only) continue;
+        if (v->options.codes_only || p > 2) continue;
         v->frame.plane[p] = calloc((size_t)width * (size_t)lines, sizeof(float));
         if (!v->frame.plane[p]) return wf_video_no_memory(v, err);
     }
@@ -204,7 +207,7 @@ weft_status wf_video_open(const char *path, const wf_video_options *options, wf_
                               .across = 1,
                               .down = 1,
                               .frames = -1,
-                              .tags = {2, 2, 2, false, WF_SITING_LEFT}};
+                              .tags = {2, 2, 2, false, WF_SITING_LEFT, false}};
     v->frame.index = -1;
     wf_video_label label = {0};
     status = is_pipe(path) ? open_pipe(v, err) : WEFT_OK;
@@ -233,11 +236,12 @@ weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_er
     return status;
 }
 
-weft_status wf_video_next_codes(wf_video *video, void *const plane[3], bool *more,
+weft_status wf_video_next_codes(wf_video *video, void *const plane[], bool *more,
                                 weft_error *err) {
     video->frame.index++;
     video->take_codes = true;
-    for (int p = 0; p < 3; p++) video->code[p] = plane ? plane[p] : NULL;
+    int planes = wf_video_planes(&video->options, &video->info);
+    for (int p = 0; p < planes; p++) video->code[p] = plane ? plane[p] : NULL;
     return video->kind->next(video, more, err);
 }
 

@@ -18,9 +18,10 @@ const wf_video_info *wf_video_info_of(const wf_video *video);
 weft_status wf_video_next(wf_video *video, const wf_video_frame **frame, weft_error *err);
 
 /* The same as codes: fills planes of the sizes that frame->width_px and lines state, of
- * wf_video_code_bytes a code, or where they are NULL passes the picture over. *more is false,
- * and nothing filled, after the last. */
-weft_status wf_video_next_codes(wf_video *video, void *const plane[3], bool *more,
+ * wf_video_code_bytes a code, the fourth being alpha where options.want_alpha asked for it, or
+ * where they are NULL passes the picture over. *more is false, and nothing filled, after the
+ * last. */
+weft_status wf_video_next_codes(wf_video *video, void *const plane[], bool *more,
                                 weft_error *err);
 
 /* Goes forward to a picture, counted from 0, without decoding all that lie before it where the

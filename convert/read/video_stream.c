@@ -133,6 +133,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     info->planes = h->across ? 3 : 1;
     info->across = h->across ? h->across : 1;
     info->down = h->down ? h->down : 1;
+    info->alpha = h->alpha;
     info->tags.range_said = h->range_said;
     info->tags.siting = siting_of(h);
     s->frame_bytes = (size_t)wf_y4m_frame_bytes(h);
@@ -183,6 +184,7 @@ static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
 
 static void take_y4m(wf_video *v, const uint8_t *from) {
     for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
+    if (wf_video_planes(&v->options, &v->info) > 3) take_plane(v, 3, from);
 }
 
 static weft_status go_to(const wf_video *v, int64_t picture, weft_error *err) {

@@ -25,6 +25,8 @@ typedef struct video_source {
     const char *path; /* the job's */
     wf_video_info info;
     wf_meaning meaning;
+    wf_alpha alpha; /* how color lies beside it; unset: there is none */
+    int channels;   /* of light: 4 with alpha */
     wf_light *light;
     wf_video_window *window;
     wf_aside ahead; /* decodes what the next units need while fields are summed */
@@ -85,6 +87,7 @@ static void tell_guess(const wf_run *run) {
     const video_source *s = run->source;
     const wf_meaning *m = &s->meaning;
     char space[128], curve[24];
+    if (*m->colors.warning) wf_job_warn(run->job, "%s: %s", s->path, m->colors.warning);
     if (m->tagged || run->job->from) return;
     wf_file_colors_name(&m->colors, space, sizeof space);
     wf_job_warn(run->job,
@@ -94,14 +97,26 @@ static void tell_guess(const wf_run *run) {
                 m->full_range ? "full" : "narrow");
 }
 
-static void tell_alpha(const wf_run *run) {
-    const video_source *s = run->source;
-    if (s->info.alpha && run->job->alpha != WF_ALPHA_IGNORED)
-        wf_job_warn(
-            run->job,
-            "%s: it has alpha, which is not looked at: its pictures are taken as they are, "
-            "and --alpha ignore says that this is right",
-            s->path);
+static bool shows_background(const weft_job *job) {
+    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
+}
+
+static bool has_alpha(const video_source *s) {
+    return s->alpha == WF_ALPHA_STRAIGHT || s->alpha == WF_ALPHA_PREMULTIPLIED;
+}
+
+/* Alpha counts wherever there is some; it is delivered where something lies behind the
+ * pictures, or it is written. */
+static void find_alpha(wf_run *run) {
+    const weft_job *job = run->job;
+    video_source *s = run->source;
+    s->alpha = wf_meaning_alpha(&s->info, job->alpha, &run->report->taken);
+    s->channels = has_alpha(s) && (shows_background(job) || wf_job_writes_alpha(job)) ? 4 : 3;
+    if (s->info.alpha_lost && job->alpha != WF_ALPHA_IGNORED)
+        wf_job_warn(job,
+                    "%s: it has alpha, which this libavcodec does not decode: its pictures are "
+                    "taken as they are, and --alpha ignore says that this is right",
+                    s->path);
 }
 
 static void tell_others(const wf_run *run) {
@@ -128,7 +143,7 @@ static weft_status find_meaning(wf_run *run, weft_error *err) {
     s->meaning.matrix_asked = !said && s->info.tags.matrix != UNSAID;
     wf_meaning_take(&s->meaning, &s->info, &run->report->taken);
     run->setup.decodes = true;
-    tell_alpha(run);
+    find_alpha(run);
     tell_others(run);
     if (run->job->from) return WEFT_OK;
     if (*s->meaning.colors.trouble)
@@ -151,13 +166,15 @@ static weft_status open_video(wf_run *run, weft_error *err) {
     const wf_video_options options = {.max_memory_bytes = run->job->max_memory_bytes,
                                       .want_times = true,
                                       .codes_only = true,
+                                      .want_alpha = run->job->alpha != WF_ALPHA_IGNORED,
                                       .progressive_only =
                                           run->job->input_scan != WF_INPUT_PROGRESSIVE,
                                       .mends = run->job->on_missing != WF_MISSING_ERROR};
     weft_status status = wf_video_open(s->path, &options, &video, err);
     if (status) return status;
     s->info = *wf_video_info_of(video);
-    return wf_video_window_new(video, run->job->max_memory_bytes / 2, &s->window, err);
+    return wf_video_window_new(video, options.want_alpha, run->job->max_memory_bytes / 2,
+                               &s->window, err);
 }
 
 static weft_status open_input(wf_run *run, weft_error *err) {
@@ -348,7 +365,7 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
         .raster = &job->raster,
         .aperture = job->aperture,
         .timing = s->timing,
-        .channels = 3,
+        .channels = s->channels,
         .background = {job->background[0], job->background[1], job->background[2]},
         .band_rows = 8,
     };
@@ -683,12 +700,48 @@ static weft_status prepare(const wf_run *run, const wf_units *units, weft_error 
 
 typedef struct shown {
     const wf_light *light;
-    const void *plane[3];
+    const video_source *source;
+    const void *plane[4];
 } shown;
 
-static void make_rows(const void *picture, int y0, int y1, void *scratch, float *const rgb[3]) {
-    const shown *p = picture;
+/* Alpha has codes of full range. */
+static void take_alpha(const shown *p, int y0, int y1, float *to) {
+    const wf_video_info *info = &p->source->info;
+    size_t width = (size_t)info->width_px, at = (size_t)y0 * width;
+    size_t count = (size_t)(y1 - y0) * width;
+    const uint8_t *bytes = (const uint8_t *)p->plane[3] + at;
+    const uint16_t *pairs = (const uint16_t *)p->plane[3] + at;
+    const float most = (float)((1 << info->bits) - 1);
+    bool narrow = wf_video_code_bytes(info) == 1;
+    for (size_t i = 0; i < count; i++) to[i] = (narrow ? bytes[i] : pairs[i]) / most;
+}
+
+static void multiply(float *const rgb[], const float *alpha, size_t count) {
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; i < count; i++) rgb[c][i] *= alpha[i];
+}
+
+/* Alpha that is not delivered is made after the scratch of light. */
+static void make_rows_with_alpha(const shown *p, int y0, int y1, void *scratch,
+                                 float *const rgb[]) {
+    const video_source *s = p->source;
+    float *own = (float *)(void *)((char *)scratch + wf_light_scratch(p->light));
+    float *alpha = s->channels == 4 ? rgb[3] : own;
+    take_alpha(p, y0, y1, alpha);
+    if (s->alpha == WF_ALPHA_PREMULTIPLIED) {
+        wf_light_rows_multiplied(p->light, p->plane, y0, y1, scratch, alpha, rgb);
+        return;
+    }
     wf_light_rows(p->light, p->plane, y0, y1, scratch, rgb);
+    multiply(rgb, alpha, (size_t)(y1 - y0) * (size_t)s->info.width_px);
+}
+
+static void make_rows(const void *picture, int y0, int y1, void *scratch, float *const rgb[]) {
+    const shown *p = picture;
+    if (has_alpha(p->source))
+        make_rows_with_alpha(p, y0, y1, scratch, rgb);
+    else
+        wf_light_rows(p->light, p->plane, y0, y1, scratch, rgb);
 }
 
 static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
@@ -699,6 +752,7 @@ static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
     shown *p = calloc(1, sizeof *p);
     if (!p) return wf_fail(err, WEFT_NO_MEMORY, "no memory for a picture");
     p->light = s->light;
+    p->source = s;
     if (!wf_video_window_find(s->window, s->picture + k * s->step, p->plane)) {
         free(p);
         return wf_fail(err, WEFT_FAILED, "%s: picture %" PRId64 " has passed", s->path, k);
@@ -724,7 +778,9 @@ static int open_together(const video_source *s) {
 static wf_picture_desc describe(const wf_run *run) {
     video_source *s = run->source;
     int64_t looked_at = s->end_field < FIELDS_LOOKED_AT ? s->end_field : FIELDS_LOOKED_AT;
-    s->maker = (wf_row_maker){wf_light_scratch(s->light), WF_LIGHT_ROWS, make_rows, free};
+    size_t alpha = (size_t)WF_LIGHT_ROWS * (size_t)s->info.width_px * sizeof(float);
+    s->maker = (wf_row_maker){wf_light_scratch(s->light) + (has_alpha(s) ? alpha : 0),
+                              WF_LIGHT_ROWS, s->channels, make_rows, free};
     return (wf_picture_desc){
         s->resampler, &s->options,         open_together(s),
         looked_at,    s->arrivals != NULL, CARRIED_BYTES,

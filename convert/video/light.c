@@ -197,8 +197,9 @@ static void fill_chroma(const wf_light *l, const rows_made *m, int y, float *con
             memcpy(rgb[p], rgb[0], bytes);
 }
 
-static void light_row(const wf_light *l, const rows_made *m, const void *luma, int y,
-                      float *const rgb[3]) {
+/* R'G'B'. */
+static void signal_row(const wf_light *l, const rows_made *m, const void *luma, int y,
+                       float *const rgb[3]) {
     size_t width = (size_t)l->width_px, at = (size_t)y * width;
     bool of_bytes = l->meaning.ycbcr && l->code_bytes == 1;
     if (!of_bytes) take_signals(l, rgb[0], luma, 0, at, width);
@@ -208,15 +209,40 @@ static void light_row(const wf_light *l, const rows_made *m, const void *luma, i
                                rgb[1], rgb[2], width);
     else if (l->meaning.ycbcr)
         l->loops->rgb(&l->matrix, rgb[0], rgb[1], rgb[2], width);
-    if (l->decode.apply) l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
+}
+
+/* Where there is no coverage color has nothing to be divided by. */
+static void divide(float *const rgb[3], const float *alpha, size_t width) {
+    for (int c = 0; c < 3; c++)
+        for (size_t x = 0; x < width; x++) rgb[c][x] /= alpha[x] > 0 ? alpha[x] : 1;
+}
+
+static void multiply(float *const rgb[3], const float *alpha, size_t width) {
+    for (int c = 0; c < 3; c++)
+        for (size_t x = 0; x < width; x++) rgb[c][x] *= alpha[x] > 0 ? alpha[x] : 1;
+}
+
+static void decode_row(const wf_light *l, const float *alpha, float *const rgb[3]) {
+    size_t width = (size_t)l->width_px;
+    if (!l->decode.apply) return;
+    if (alpha) divide(rgb, alpha, width);
+    l->decode.apply(l->decode.self, rgb[0], rgb[1], rgb[2], width);
+    if (alpha) multiply(rgb, alpha, width);
 }
 
 void wf_light_rows(const wf_light *l, const void *const plane[3], int y0, int y1, void *scratch,
                    float *const rgb[3]) {
+    wf_light_rows_multiplied(l, plane, y0, y1, scratch, NULL, rgb);
+}
+
+void wf_light_rows_multiplied(const wf_light *l, const void *const plane[3], int y0, int y1,
+                              void *scratch, const float *alpha, float *const rgb[3]) {
     const rows_made m = lay_out(l, y0, y1, scratch);
     for (int p = 1; l->has_chroma && p < 3; p++) bring_down(l, &m, p, plane[p]);
     for (int y = y0; y < y1; y++) {
         size_t at = (size_t)(y - y0) * (size_t)l->width_px;
-        light_row(l, &m, plane[0], y, (float *[3]){rgb[0] + at, rgb[1] + at, rgb[2] + at});
+        float *const row[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
+        signal_row(l, &m, plane[0], y, row);
+        decode_row(l, alpha ? alpha + at : NULL, row);
     }
 }

@@ -25,4 +25,10 @@ size_t wf_light_scratch(const wf_light *light);
 void wf_light_rows(const wf_light *light, const void *const plane[3], int y0, int y1,
                    void *scratch, float *const rgb[3]);
 
+/* The same where color is multiplied by alpha[(y - y0) width_px + x] already, as it is coded:
+ * it is divided by that before it is decoded. What is made is light that is multiplied by it.
+ */
+void wf_light_rows_multiplied(const wf_light *light, const void *const plane[3], int y0, int y1,
+                              void *scratch, const float *alpha, float *const rgb[3]);
+
 #endif

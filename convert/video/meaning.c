@@ -4,7 +4,10 @@
 #include <stdio.h>
 #include <strings.h>
 
-enum { UNSAID = 2 };
+#include "convert/media/color_tags.h"
+#include "convert/media/formats.h"
+
+enum { UNSAID = 2, SRGB = 13 };
 
 /* ---- Tables of Rec. ITU-T H.273 ---- */
 
@@ -45,11 +48,13 @@ static void fill_in(wf_meaning *m, const wf_video_info *info) {
     bool primaries_said = tags->primaries != UNSAID && tags->primaries != 0;
     m->colors.transfer_said = tags->transfer != UNSAID && tags->transfer != 0;
     m->colors.primaries_said = primaries_said || matrix_said;
-    m->tagged = m->colors.transfer_said && primaries_said && (rgb || matrix_said);
-    m->transfer = m->colors.transfer_said ? tags->transfer : 1;
-    m->primaries = primaries_said ? tags->primaries
-                   : matrix_said  ? primaries_of_matrix(tags->matrix, info->lines)
-                                  : usual_primaries(info->lines);
+    m->tagged =
+        tags->pictures || (m->colors.transfer_said && primaries_said && (rgb || matrix_said));
+    m->transfer = m->colors.transfer_said ? tags->transfer : tags->pictures ? SRGB : 1;
+    m->primaries = primaries_said   ? tags->primaries
+                   : tags->pictures ? 1
+                   : matrix_said    ? primaries_of_matrix(tags->matrix, info->lines)
+                                    : usual_primaries(info->lines);
     m->matrix = rgb ? 0 : matrix_said ? tags->matrix : matrix_of_primaries(m->primaries);
     m->full_range = info->full_range;
 }
@@ -90,11 +95,19 @@ static void find_colors(wf_meaning *m) {
                  what, *what == 't' ? m->transfer : m->primaries);
 }
 
+/* libav 5.1 does not tell all that a PNG says. */
+static wf_file_colors colors_of_png(const char *path) {
+    wf_color_said said = {0};
+    wf_read_color_tags(path, "png", &said);
+    return wf_file_colors_of(&said);
+}
+
 weft_status wf_meaning_of(const wf_video_info *info, const char *path, wf_meaning *out,
                           weft_error *err) {
     *out = (wf_meaning){.ycbcr = info->layout == WF_YCBCR};
     fill_in(out, info);
     find_colors(out);
+    if (info->tags.pictures && wf_is_animated_png(path)) out->colors = colors_of_png(path);
     if (find_matrix(out)) return WEFT_OK;
     return wf_fail(
         err, WEFT_FAILED,
@@ -113,4 +126,15 @@ void wf_meaning_take(const wf_meaning *m, const wf_video_info *info, wf_taken_li
                                        : "default");
     wf_take(list, "range", m->full_range ? "full" : "narrow",
             info->tags.range_said ? "file" : "default");
+}
+
+wf_alpha wf_meaning_alpha(const wf_video_info *info, wf_alpha asked, wf_taken_list *list) {
+    static const char *const names[] = {"none", "straight", "premultiplied", "ignore"};
+    bool has = info->alpha, lost = info->alpha_lost && !has, given = asked != WF_ALPHA_UNSET;
+    wf_alpha said = info->alpha_said ? info->alpha_said : WF_ALPHA_STRAIGHT;
+    wf_alpha taken = has ? (given ? asked : said) : lost ? WF_ALPHA_IGNORED : WF_ALPHA_UNSET;
+    bool by_file = lost ? false : !has || (!given && info->alpha_said);
+    given = given && (has || asked == WF_ALPHA_IGNORED) && (has || lost);
+    wf_take(list, "alpha", names[taken], given ? "option" : by_file ? "file" : "default");
+    return taken;
 }

@@ -28,4 +28,8 @@ int wf_matrix_of_space(const char *space);
 /* Adds "space", "transfer", "matrix" and "range". */
 void wf_meaning_take(const wf_meaning *meaning, const wf_video_info *info, wf_taken_list *list);
 
+/* How color lies beside alpha, where there is some that counts: as asked, as the file says,
+ * else straight. WF_ALPHA_UNSET: there is none. Adds "alpha". */
+wf_alpha wf_meaning_alpha(const wf_video_info *info, wf_alpha asked, wf_taken_list *list);
+
 #endif

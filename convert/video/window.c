@@ -28,16 +28,16 @@ struct wf_video_window {
     int planned, read, taken;  /* of ahead */
     slot *slot;
     size_t slots, most_slots;
-    size_t bytes[3]; /* of each plane */
+    size_t bytes[4]; /* of each plane */
     int64_t next, end;
 };
 
 size_t wf_video_window_picture_bytes(const wf_video_window *w) {
-    return w->bytes[0] + w->bytes[1] + w->bytes[2];
+    return w->bytes[0] + w->bytes[1] + w->bytes[2] + w->bytes[3];
 }
 
-weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_window **out,
-                                weft_error *err) {
+weft_status wf_video_window_new(wf_video *video, bool want_alpha, size_t most_bytes,
+                                wf_video_window **out, weft_error *err) {
     wf_video_window *w = *out = calloc(1, sizeof *w);
     if (!w) {
         wf_video_close(video);
@@ -47,7 +47,9 @@ weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_win
     w->end = -1;
     w->ticks = INT64_MIN;
     const wf_video_info *info = wf_video_info_of(video);
-    for (int p = 0; p < info->planes; p++) {
+    for (int p = 0; p < 4; p++) {
+        bool there = p < 3 ? p < info->planes : info->alpha && want_alpha;
+        if (!there) continue;
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);
         w->bytes[p] = (size_t)width * (size_t)lines * wf_video_code_bytes(info);
@@ -112,8 +114,8 @@ static weft_status free_slot(wf_video_window *w, slot **out, weft_error *err) {
     return add_slot(w, out, err);
 }
 
-static void planes_of(const wf_video_window *w, uint8_t *code, void *plane[3]) {
-    for (int p = 0; p < 3; p++) {
+static void planes_of(const wf_video_window *w, uint8_t *code, void *plane[4]) {
+    for (int p = 0; p < 4; p++) {
         plane[p] = code;
         code += w->bytes[p];
     }
@@ -121,7 +123,7 @@ static void planes_of(const wf_video_window *w, uint8_t *code, void *plane[3]) {
 
 static outcome decode(wf_video_window *w, const slot *to) {
     outcome o = {.ticks = INT64_MIN};
-    void *plane[3];
+    void *plane[4];
     if (to) planes_of(w, to->code, plane);
     o.status = wf_video_next_codes(w->video, to ? plane : NULL, &o.more, &o.error);
     if (o.status || !o.more) return o;
@@ -206,12 +208,12 @@ static const slot *slot_of(const wf_video_window *w, int64_t number) {
     return NULL;
 }
 
-bool wf_video_window_find(const wf_video_window *w, int64_t number, const void *plane[3]) {
+bool wf_video_window_find(const wf_video_window *w, int64_t number, const void *plane[4]) {
     const slot *found = slot_of(w, number);
-    void *planes[3];
+    void *planes[4];
     if (!found) return false;
     planes_of(w, found->code, planes);
-    for (int p = 0; p < 3; p++) plane[p] = planes[p];
+    for (int p = 0; p < 4; p++) plane[p] = planes[p];
     return true;
 }
 

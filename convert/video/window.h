@@ -8,10 +8,10 @@
  */
 typedef struct wf_video_window wf_video_window;
 
-/* Takes the video over: wf_video_window_free closes it. At most most_bytes of pictures are kept
- * at once. */
-weft_status wf_video_window_new(wf_video *video, size_t most_bytes, wf_video_window **out,
-                                weft_error *err);
+/* Takes the video over, which was opened with this want_alpha: wf_video_window_free closes it.
+ * At most most_bytes of pictures are kept at once. */
+weft_status wf_video_window_new(wf_video *video, bool want_alpha, size_t most_bytes,
+                                wf_video_window **out, weft_error *err);
 void wf_video_window_free(wf_video_window *window); /* NULL is fine */
 
 size_t wf_video_window_picture_bytes(const wf_video_window *window);
@@ -49,8 +49,8 @@ weft_status wf_video_window_jump(wf_video_window *window, int64_t number, weft_e
 /* wf_video_check_whole. */
 weft_status wf_video_window_check_whole(const wf_video_window *window, weft_error *err);
 
-/* The codes of a picture that is kept, of wf_video_code_bytes each, until it is forgotten;
- * false: it is not. */
-bool wf_video_window_find(const wf_video_window *window, int64_t number, const void *plane[3]);
+/* The codes of a picture that is kept, the fourth plane being alpha, of wf_video_code_bytes
+ * each, until it is forgotten; false: it is not. */
+bool wf_video_window_find(const wf_video_window *window, int64_t number, const void *plane[4]);
 
 #endif

@@ -187,11 +187,6 @@ for pixels in gray gray10le gray16le gbrp gbrp12le rgb48le yuv410p yuv411p yuv44
     coded kind.mkv -pix_fmt $pixels -c:v ffv1
     check "$pixels" exits 0 weft convert kind.mkv $box -o o.y4m
 done
-coded alpha.mkv -pix_fmt yuva444p -c:v ffv1
-check "alpha" exits 0 weft convert alpha.mkv ${box/-q/} -o o.y4m
-check "is told" says "it has alpha"
-check "or named" exits 0 weft convert alpha.mkv ${box/-q/} --alpha ignore -o o.y4m
-check "and not told" [ -z "$(grep alpha said)" ]
 check "nothing is left" [ ! -e no.y4m ]
 
 finish

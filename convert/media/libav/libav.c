@@ -5,6 +5,7 @@
 #include "convert/media/libav/ffv1_slices.h"
 #include "convert/media/libav/libav_reading.h"
 #include "convert/media/libav/libav_times.h"
+#include "convert/media/metadata_mov.h"
 
 #include <inttypes.h>
 #include <libavcodec/avcodec.h>
@@ -74,10 +75,22 @@ static weft_status find_stream(wf_video *v, weft_error *err) {
     return WEFT_OK;
 }
 
+/* Alpha of VP8 and VP9 is a stream beside the picture's, which libvpx's decoders alone show. */
+static const AVCodec *decoder_for(wf_video *v, const AVStream *stream) {
+    enum AVCodecID codec = stream->codecpar->codec_id;
+    const AVDictionaryEntry *alpha = av_dict_get(stream->metadata, "alpha_mode", NULL, 0);
+    bool vp8 = codec == AV_CODEC_ID_VP8, vpx = vp8 || codec == AV_CODEC_ID_VP9;
+    const AVCodec *found = NULL;
+    bool has = vpx && alpha && !strcmp(alpha->value, "1");
+    if (has) found = avcodec_find_decoder_by_name(vp8 ? "libvpx" : "libvpx-vp9");
+    v->info.alpha_lost = has && !found;
+    return found ? found : avcodec_find_decoder(codec);
+}
+
 static weft_status open_decoder(wf_video *v, weft_error *err) {
     reading *r = v->state;
     const AVCodecParameters *par = r->format->streams[r->stream]->codecpar;
-    const AVCodec *decoder = avcodec_find_decoder(par->codec_id);
+    const AVCodec *decoder = decoder_for(v, r->format->streams[r->stream]);
     if (!decoder)
         return wf_fail(err, WEFT_FAILED, "%s: libav has no decoder for its video (%s)", v->path,
                        avcodec_get_name(par->codec_id));
@@ -277,8 +290,29 @@ static wf_video_tags tags_of(const reading *r, bool jpeg) {
     if (f->chroma_location == AVCHROMA_LOC_TOPLEFT) siting = WF_SITING_TOP_LEFT;
     if (f->chroma_location == AVCHROMA_LOC_LEFT) siting = WF_SITING_LEFT;
     bool range_said = jpeg || f->color_range != AVCOL_RANGE_UNSPECIFIED;
-    return (wf_video_tags){(int)f->color_primaries, (int)f->color_trc, (int)f->colorspace,
-                           range_said, siting};
+    const char *format = r->format->iformat->name;
+    bool pictures = !strcmp(format, "gif") || !strcmp(format, "apng");
+    return (wf_video_tags){(int)f->color_primaries,
+                           (int)f->color_trc,
+                           (int)f->colorspace,
+                           range_said,
+                           siting,
+                           pictures};
+}
+
+/* QuickTime says it by the way in which the picture is laid over others (Graphics Modes):
+ * straight, and multiplied over black. */
+static wf_alpha alpha_said(const wf_video *v) {
+    const reading *r = v->state;
+    wf_metadata metadata = {0};
+    bool mov = !v->pipe && !strncmp(r->format->iformat->name, "mov,", 4);
+    FILE *file = mov ? fopen(v->path, "rbe") : NULL;
+    if (!file) return WF_ALPHA_UNSET;
+    wf_metadata_mov(file, &metadata);
+    fclose(file);
+    return metadata.graphics_mode == 0x100   ? WF_ALPHA_STRAIGHT
+           : metadata.graphics_mode == 0x102 ? WF_ALPHA_PREMULTIPLIED
+                                             : WF_ALPHA_UNSET;
 }
 
 static weft_status describe_pixels(wf_video *v, weft_error *err) {
@@ -303,6 +337,7 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
     info->layout = rgb ? WF_RGB : WF_YCBCR;
     info->bits = d->comp[0].depth;
     info->alpha = d->flags & AV_PIX_FMT_FLAG_ALPHA;
+    info->alpha_said = alpha_said(v);
     info->full_range = rgb || jpeg || r->frame->color_range == AVCOL_RANGE_JPEG;
     info->planes = d->nb_components < 3 ? 1 : 3;
     info->across = 1 << d->log2_chroma_w;
@@ -417,30 +452,39 @@ static const uint8_t *plain_line(const wf_video *v, const AVFrame *f, int p, int
 }
 
 /* One line of a component: plain ones are taken as they are, or bytes are widened. */
-static const uint16_t *line_codes(const wf_video *v, const AVFrame *f, int p, int y) {
+static const uint16_t *line_codes(const wf_video *v, const AVFrame *f, int p, int y,
+                                  int width) {
     reading *r = v->state;
     const uint8_t *line = plain_line(v, f, p, y);
     if (line && r->pixels->comp[p].depth > 8) return (const uint16_t *)(const void *)line;
     if (line)
-        for (int x = 0; x < v->frame.width_px[p]; x++) r->code[x] = line[x];
+        for (int x = 0; x < width; x++) r->code[x] = line[x];
     else
         av_read_image_line2(r->code, (const uint8_t **)f->data, f->linesize, r->pixels, 0, y, p,
-                            v->frame.width_px[p], 0, sizeof *r->code);
+                            width, 0, sizeof *r->code);
     return r->code;
 }
 
-/* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes. */
-static void take_frame(wf_video *v, const AVFrame *f) {
+/* The components of libav's RGB and Y'CbCr formats are in the order of weft's planes, and alpha
+ * comes last. */
+static void take_plane(wf_video *v, const AVFrame *f, int p, int component) {
     bool bytes = v->take_codes && wf_video_code_bytes(&v->info) == 1;
-    for (int p = 0; p < v->info.planes; p++)
-        for (int y = 0; y < v->frame.lines[p]; y++) {
-            int from = y + v->info.interval_lines;
-            const uint8_t *line = bytes ? plain_line(v, f, p, from) : NULL;
-            if (line)
-                wf_video_take_bytes(v, p, y, line);
-            else
-                wf_video_take_codes(v, p, y, line_codes(v, f, p, from));
-        }
+    for (int y = 0; y < v->frame.lines[p]; y++) {
+        int from = y + v->info.interval_lines;
+        const uint8_t *line = bytes ? plain_line(v, f, component, from) : NULL;
+        if (line)
+            wf_video_take_bytes(v, p, y, line);
+        else
+            wf_video_take_codes(v, p, y,
+                                line_codes(v, f, component, from, v->frame.width_px[p]));
+    }
+}
+
+static void take_frame(wf_video *v, const AVFrame *f) {
+    const wf_libav_reading *r = v->state;
+    for (int p = 0; p < v->info.planes; p++) take_plane(v, f, p, p);
+    if (wf_video_planes(&v->options, &v->info) > 3)
+        take_plane(v, f, 3, r->pixels->nb_components - 1);
 }
 
 /* How long the stream states to be; 0 if it does not. Matroska keeps that in a tag. */
