@@ -71,6 +71,17 @@ wf_verdict wf_check_chroma(const wf_subject *s, wf_finding *f) {
     return wf_say(f, deeper || !strcmp(is, should), is, should);
 }
 
+/* QuickTime's graphics modes of straight alpha, and of alpha that color is multiplied by. */
+wf_verdict wf_check_alpha(const wf_subject *s, wf_finding *f) {
+    bool there = !strncmp(s->metadata.pixels, "yuva", 4);
+    const char *fill = s->metadata.graphics_mode == 0x100   ? "straight"
+                       : s->metadata.graphics_mode == 0x102 ? "premultiplied, over black"
+                                                            : NULL;
+    if (there && !fill)
+        return wf_open_question(f, "there, and not said how color lies beside it");
+    return wf_say(f, there, there ? fill : "none", "alpha");
+}
+
 /* From one picture that needs no other to the next. */
 wf_verdict wf_check_groups(const wf_subject *s, wf_finding *f) {
     char is[96], should[96];

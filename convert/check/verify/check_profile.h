@@ -7,6 +7,7 @@
 wf_check_fn wf_check_container, wf_check_codec, wf_check_bits, wf_check_channels,
     wf_check_tracks, wf_check_sound_bits, wf_check_start, wf_check_codec_profile,
     wf_check_level, wf_check_chroma, wf_check_groups, wf_check_bit_rate, wf_check_frame_bytes,
-    wf_check_partitions, wf_check_sound_codec, wf_check_mono, wf_check_one_sound, wf_check_not;
+    wf_check_partitions, wf_check_sound_codec, wf_check_mono, wf_check_one_sound,
+    wf_check_alpha, wf_check_not;
 
 #endif

@@ -62,6 +62,7 @@ static const struct check {
     {"codec profile", wf_check_codec_profile, CONTAINER | CODEC, TEXT(codec_profile), "%s"},
     {"level",      wf_check_level,      CONTAINER | CODEC, NUMBER(level), "%s"},
     {"chroma",     wf_check_chroma,     CONTAINER | CODEC, TEXT(chroma), "%s"},
+    {"alpha",      wf_check_alpha,      CONTAINER | CODEC, FLAG(alpha), "%s"},
     {"groups",     wf_check_groups,     CONTAINER | CODEC, NUMBER(group), "%s"},
     {"bit rate",   wf_check_bit_rate,   CONTAINER | CODEC | PIXELS, NUMBER(bit_rate), "%s"},
     {"frame size", wf_check_frame_bytes, CONTAINER | CODEC, TEXT(frame_bytes), "%s"},

@@ -52,6 +52,18 @@
 #define PRORES(raster)                                                                         \
     MOV("prores"), .rasters = raster, .bits = 10, .chroma = "yuv422p", .group = 1,             \
                    .not_checked = "which of the 422 kinds it is, bit rate"
+#define INTERLACED                                                                             \
+    "525i 525i-wide 525i-imx 525i-imx-wide 525i-dv 525i-dv-wide 525i-rp202 525i-rp202-wide "   \
+    "625i 625i-wide 625i-dv 625i-dv-wide 1080i50 1080i59.94 1080i60"
+#define ANY_RASTER                                                                             \
+    INTERLACED " 1080p23.976 1080p24 1080p25 1080p29.97 1080p30 1080p50 1080p59.94 1080p60 "   \
+               "720p23.976 720p24 720p25 720p29.97 720p30 720p50 720p59.94 720p60 "            \
+               "2160p23.976 2160p24 2160p25 2160p29.97 2160p30 2160p50 2160p59.94 2160p60"
+#define H264(depth, profile, pixels)                                                           \
+    .container = "mov", .codec = "h264", .rasters = ANY_RASTER, .bits = depth,                 \
+    .codec_profile = profile, .chroma = pixels,                                                \
+    .sound_codec = "aac pcm_s16le pcm_s24le pcm_s32le",                                        \
+    .not_checked = "level, groups, bit rate, buffer"
 #define RAW(raster, bytes)                                                                     \
     MOV("v210"), .rasters = raster, .bits = 10, .group = 1, .frame_bytes = bytes,              \
                  .not_checked = "the padding of lines"
@@ -91,6 +103,12 @@ static const wf_profile profiles[] = {
     {"dnxhd-1080i59.94", "DNxHD (SMPTE ST 2019-1)", DNXHD("1080i59.94")},
     {"prores-1080i50", "ProRes in QuickTime (SMPTE RDD 36)", PRORES("1080i50")},
     {"prores-1080i59.94", "ProRes in QuickTime (SMPTE RDD 36)", PRORES("1080i59.94")},
+    {"prores-4444", "ProRes 4444 with alpha, fill and key in one, in QuickTime (SMPTE RDD 36)",
+     MOV("prores"), .rasters = ANY_RASTER, .bits = 12, .codec_profile = "4444", .alpha = true,
+     .group = 1, .not_checked = "bit rate"},
+    {"h264", "H.264 of 8 bits in MP4 or QuickTime (ISO/IEC 14496-10 and -15)",
+     H264(8, "High", "yuv420p")},
+    {"h264-422", "the same of 10 bits, 4:2:2", H264(10, "High 4:2:2", "yuv422p")},
     {"v210-525", "uncompressed, 486 lines (Apple's TN2162)", RAW("525i 525i-wide", "933120")},
     {"v210-625", "uncompressed (Apple's TN2162)", RAW("625i 625i-wide", "1105920")},
     {"v210-1080i", "uncompressed (Apple's TN2162)", RAW(BOTH_1080I, "5529600")},

@@ -27,6 +27,7 @@ typedef struct wf_profile {
     int group;    /* pictures from one that is whole to the next at most; 1: all are whole */
     bool between; /* there are pictures that are predicted; needs two of them to show */
     int bit_rate; /* a second, which is constant; stated by the stream where it is MPEG-2 */
+    bool alpha;   /* there is some, and the file says how color lies beside it */
     const char *frame_bytes; /* of every frame, one of these numbers */
     const char *sound_codec; /* one of these */
     bool mono;               /* each stream of sound has one channel */
