@@ -105,6 +105,15 @@ WEFT_API void weft_job_cancel(weft_job *job);
  * long as the job or until its next run. */
 WEFT_API const char *weft_job_report(const weft_job *job);
 
+/* Tells what a renderer has to make for the job's frames, before there is any of it: which
+ * subframes some field sees, and their times, size and pixel aspect. Of the job's options those
+ * count that `weft plan` takes: raster, frames ("A-B", of the output), subframe-rate, aperture,
+ * size and others; it needs no input. format: "text" (NULL), "json", "csv", "blender",
+ * "povray", "houdini". *text lives as long as the job or until its next plan; NULL on failure.
+ */
+WEFT_API weft_status weft_job_plan(weft_job *job, const char *format, const char **text,
+                                   weft_error *err);
+
 /* ---- Samples from a renderer ----------------------------------------------------------------
  */
 

@@ -95,10 +95,12 @@ convert/write       : filters/* color/* convert/base convert/job convert/media c
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/sound convert/write
 convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
+convert/plan        : filters/* convert/base convert/job convert/media convert/read convert/run convert/run/time
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/plot
+convert/program/plan : convert/base convert/job convert/plan convert/program
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check
 '
 # The public header belongs to no room, and what the build makes of color/weft.ocio is a string.

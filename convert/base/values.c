@@ -88,6 +88,17 @@ bool wf_parse_oversample(const char *text, int *across, int *down, int *times) {
     return true;
 }
 
+bool wf_parse_dimensions(const char *text, int *width, int *height) {
+    int n[2];
+    for (int k = 0; k < 2; k++) {
+        if (!read_count(&text, 65536, &n[k]) || n[k] < 1) return false;
+        if (*text++ != (k < 1 ? 'x' : '\0')) return false;
+    }
+    *width = n[0];
+    *height = n[1];
+    return true;
+}
+
 bool wf_parse_rgb(const char *text, float rgb[3]) {
     char words[128], *rest = words;
     float read[3];

@@ -21,6 +21,9 @@ bool wf_parse_span(const char *text, int64_t *first, int64_t *end);
 /* "4x4x8": samples a pixel, a line and a field, each 1 .. 64. */
 bool wf_parse_oversample(const char *text, int *across, int *down, int *times);
 
+/* "1920x1080": each 1 .. 65536. */
+bool wf_parse_dimensions(const char *text, int *width, int *height);
+
 /* "0.18" or "0.1,0.2,0.3", each 0 .. 65504. */
 bool wf_parse_rgb(const char *text, float rgb[3]);
 

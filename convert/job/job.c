@@ -157,6 +157,14 @@ weft_status wf_job_check_alpha(const weft_job *job, weft_error *err) {
     return check_rules(rules, sizeof rules / sizeof *rules, err);
 }
 
+weft_status wf_job_check_time(const weft_job *job, weft_error *err) {
+    if (job->width_given && job->angle_given)
+        return wf_fail(err, WEFT_USAGE,
+                       "--temporal-width and --shutter-angle say the same "
+                       "thing; give one of them");
+    return check_cadence(job, err);
+}
+
 weft_status wf_job_check(const weft_job *job, weft_error *err) {
     const rule rules[] = {
         {!job->input_count && job->command != WF_CONVERT,
@@ -171,8 +179,6 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
          "nothing to convert; give a file, a pattern such as shot.####.exr, or a "
          "directory"},
         {!job->output, "nowhere to write; give an output, such as -o out.y4m"},
-        {job->width_given && job->angle_given,
-         "--temporal-width and --shutter-angle say the same thing; give one of them"},
         {job->to && job->display,
          "--to and --display both name the output's color; give one of them"},
         {job->to && job->view,
@@ -190,6 +196,6 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
     };
     weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
     if (!status) status = wf_job_check_alpha(job, err);
-    if (!status) status = check_cadence(job, err);
+    if (!status) status = wf_job_check_time(job, err);
     return status ? status : check_timecode(job, err);
 }

@@ -60,6 +60,11 @@ struct weft_job {
     size_t param_count;
     wf_on_empty on_empty;
 
+    int render_width, render_lines; /* of a plan's subframes; 0: the raster's */
+    int64_t samples_a_pixel;        /* of a finished frame; 0: not told */
+    wf_rational scene_fps;          /* {0,0}: not told */
+    char *refine;                   /* the folder of what is rendered so far; NULL: none */
+
     bool separate_fields; /* of image sequences: a file each */
     char *timecode;       /* of frame 0; NULL: the input's, or 00:00:00:00 */
     char *codec;          /* NULL: the container's default */
@@ -84,6 +89,7 @@ struct weft_job {
     volatile sig_atomic_t cancelled;
     char *report; /* JSON of the last run */
     char *plan;   /* of a dry run, for people; NULL: there is none */
+    char *asked;  /* what weft_job_plan has told; NULL: nothing */
 };
 
 /* Forgets the inputs there are. */
@@ -105,6 +111,9 @@ bool wf_job_writes_alpha(const weft_job *job);
 
 /* The same of the options of alpha alone. */
 weft_status wf_job_check_alpha(const weft_job *job, weft_error *err);
+
+/* The same of the options that say when fields look alone: width and cadence. */
+weft_status wf_job_check_time(const weft_job *job, weft_error *err);
 
 /* Settles what depends on several options, in a job that wf_job_check passes: the raster takes
  * on the cadence. */

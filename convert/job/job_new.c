@@ -21,5 +21,6 @@ void weft_job_free(weft_job *job) {
     free(job->output);
     free(job->report);
     free(job->plan);
+    free(job->asked);
     free(job);
 }

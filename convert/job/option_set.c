@@ -260,6 +260,17 @@ weft_status wf_set_output_frames(weft_job *job, const wf_option_row *row, const 
                   err);
 }
 
+/* Two ints, the second after the first. */
+weft_status wf_set_dimensions(weft_job *job, const wf_option_row *row, const char *value,
+                              weft_error *err) {
+    int *size = member(job, row);
+    if (wf_parse_dimensions(value, &size[0], &size[1])) return WEFT_OK;
+    return refuse(row, value,
+                  "WxH, pixels across and down, each from 1 to 65536, such as "
+                  "1920x1080",
+                  err);
+}
+
 weft_status wf_set_audio(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {
     static const char *const words[] = {"none", "copy", "silent:2", "tone:2"};

@@ -11,7 +11,7 @@
 
 static const char shape[] = "Raster and aperture", timing[] = "Time", input[] = "Input",
                   color[] = "Color", codes[] = "Codes", files[] = "Files",
-                  running[] = "Running", scene[] = "Scene and samples";
+                  running[] = "Running", scene[] = "Scene and samples", planning[] = "Plan";
 
 /* Which commands take an option. */
 enum {
@@ -20,6 +20,7 @@ enum {
     TRACE = WF_TAKEN_BY_TRACE,
     COMPOSITE = WF_TAKEN_BY_COMPOSITE,
     FILTERS = WF_TAKEN_BY_FILTERS,
+    PLAN = WF_TAKEN_BY_PLAN,
     VIDEO = CONVERT | RENDER,
     SCENES = RENDER | TRACE,
     JOBS = CONVERT | RENDER | TRACE
@@ -33,10 +34,10 @@ enum {
 #define INITIAL                  .initial = true
 
 static const wf_option_row rows[] = {
-    ROW(shape, JOBS | FILTERS, "raster", "NAME", "525i",
+    ROW(shape, JOBS | FILTERS | PLAN, "raster", "NAME", "525i",
         "What to make: a name that 'weft rasters' lists, or WxH@RATE(i|p|psf).", set_raster,
         AT(raster), INITIAL),
-    ROW(shape, JOBS, "aperture", "NAME", "shaped",
+    ROW(shape, JOBS | PLAN, "aperture", "NAME", "shaped",
         "How a pixel looks at the picture: one of those that 'weft filters' lists, or "
         "design:KEY=VALUE,.. to have one made ('weft filters --help').",
         set_aperture, AT(aperture), INITIAL),
@@ -51,34 +52,35 @@ static const wf_option_row rows[] = {
         "Scene-linear color behind transparent and padded pictures; one number is a gray.",
         set_background, AT(background), INITIAL),
 
-    ROW(timing, JOBS | FILTERS, "temporal-width", "T", "the aperture's",
+    ROW(timing, JOBS | FILTERS | PLAN, "temporal-width", "T", "the aperture's",
         "How long a field looks, in field periods: 0 is an instant, 1 a whole field.",
         set_width, AT(temporal_width), FROM(0, 64, " (field periods), such as 0.5 or 1/3")),
-    ROW(timing, JOBS, "shutter-angle", "D", "the aperture's",
+    ROW(timing, JOBS | PLAN, "shutter-angle", "D", "the aperture's",
         "The same in degrees: 360 are one field period.", set_angle, AT(temporal_width),
         FROM(0, 64 * 360, " (degrees), such as 180")),
-    ROW(timing, JOBS, "shutter-position", "start|center|end", "start",
+    ROW(timing, JOBS | PLAN, "shutter-position", "start|center|end", "start",
         "Whether a field's window starts, is centered or ends at its instant.", set_choice,
         AT(shutter_position), INITIAL),
-    ROW(timing, JOBS, "scan-skew", "S", "0",
+    ROW(timing, JOBS | PLAN, "scan-skew", "S", "0",
         "How much later the last line looks, in field periods: 1 is a tube camera.", set_ratio,
         AT(scan_skew), FROM(0, 1, ", such as 1 or 0.5"), INITIAL),
-    ROW(timing, VIDEO, "cadence", "none|2:3", "none",
+    ROW(timing, VIDEO | PLAN, "cadence", "none|2:3", "none",
         "Shows film, 24 frames a second, in 60 fields: each film frame is seen once, and a "
         "period is a film frame's.",
         set_choice, AT(cadence), INITIAL),
-    ROW(timing, CONVERT, "subframe-rate", "R", "from the files",
+    ROW(timing, CONVERT | PLAN, "subframe-rate", "R", "from the files",
         "Subframes a second, of those that are selected.", set_rate, AT(subframe_rate),
         FROM(0.001, 1e6, " (a second), such as 240 or 480000/1001")),
-    ROW(timing, CONVERT, "subframe-time", "start|center", "start",
+    ROW(timing, CONVERT | PLAN, "subframe-time", "start|center", "start",
         "Whether subframe k stands for the time after k/R or about it.", set_switch,
         AT(subframe_time_center), INITIAL),
     ROW(timing, VIDEO | COMPOSITE, "timecode", "HH:MM:SS:FF", "the input's, or 00:00:00:00",
         "Timecode of frame 0; a semicolon before FF counts drop frame.", set_timecode,
         TEXT(timecode)),
 
-    ROW(input, JOBS, "frames", "A-BxS", "all",
-        "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25.",
+    ROW(input, JOBS | PLAN, "frames", "A-BxS", "all",
+        "Which subframes: 1-96, every second one with 1-96x2, quarters with 1001-1066x0.25; "
+        "of a scene and of a plan, which frames of the output.",
         set_frames, TEXT(frames)),
     ROW(input, CONVERT, "output-frames", "A-B", "all",
         "Which of the frames that the input gives to make: 0-24. Subframes keep their times, "
@@ -117,8 +119,10 @@ static const wf_option_row rows[] = {
         set_choice, AT(sampler), INITIAL),
     ROW(scene, SCENES, "seed", "N", "0", "Another number gives other samples.", set_whole,
         AT(seed), FROM(0, 9007199254740992, ", whole"), INITIAL),
-    ROW(scene, RENDER, "error", "E", NULL,
-        "Instead of a number of samples: the RMS error to reach, in display-encoded units.",
+    ROW(scene, RENDER | PLAN, "error", "E", NULL,
+        "Instead of a number of samples: the RMS error to reach, in display-encoded units; "
+        "with "
+        "--refine, what pixels may be off by.",
         set_ratio, AT(error), FROM(0.0001, 1, ", such as 0.005")),
     ROW(scene, TRACE, "oversample", "SxLxT", NULL,
         "Write subframes with S samples a pixel, L a line and T a field, not deep pictures.",
@@ -130,6 +134,22 @@ static const wf_option_row rows[] = {
         FROM(1000, 1e15, ", whole, such as 1000000000"), INITIAL),
     ROW(scene, SCENES, "scene-memory", "SIZE", "2G", "How much memory the scene may take.",
         set_size, AT(scene_memory_bytes), INITIAL),
+
+    ROW(planning, PLAN, "size", "WxH", NULL,
+        "Size of the subframes, if it is not the raster's; their height becomes a whole "
+        "multiple of half the raster's "
+        "lines.",
+        set_dimensions, AT(render_width)),
+    ROW(planning, PLAN, "samples-a-pixel", "N", NULL,
+        "Samples a pixel of a finished frame, whose noise subframes are to reach together.",
+        set_whole, AT(samples_a_pixel), FROM(1, 1e9, ", whole, such as 64")),
+    ROW(planning, PLAN, "scene-fps", "F", NULL,
+        "Frames a second of the scene, in which times are told too.", set_rate, AT(scene_fps),
+        FROM(0.001, 1e6, ", such as 24 or 30000/1001")),
+    ROW(planning, PLAN, "refine", "DIR", NULL,
+        "Tell what subframes in this folder still want, by --error: further times, and the "
+        "rectangle of each.",
+        set_text, TEXT(refine)),
 
     ROW(color, VIDEO, "ocio", "FILE", "$OCIO, else weft's own", "OpenColorIO configuration.",
         set_text, TEXT(ocio)),

@@ -11,7 +11,8 @@ enum {
     WF_TAKEN_BY_RENDER = 2,
     WF_TAKEN_BY_TRACE = 4,
     WF_TAKEN_BY_COMPOSITE = 8,
-    WF_TAKEN_BY_FILTERS = 16
+    WF_TAKEN_BY_FILTERS = 16,
+    WF_TAKEN_BY_PLAN = 32
 };
 
 /* WF_TAKEN_BY_ bits of the commands that take the option; 0 past the end. */

@@ -5,6 +5,8 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "convert/finish/setup.h"
+
 /* The simplest ratio within float32's accuracy of value: files hold 10:11 as 0.909090936. */
 static wf_rational simplest_ratio(double value) {
     int64_t num[2] = {1, 0}, den[2] = {0, 1};
@@ -63,4 +65,24 @@ void wf_fit_picture(const weft_job *job, const wf_image_info *first, wf_fitting 
     y->cell = wf_ratio(y->pixels, y->cells);
     warn_of_aspect(job, first, par);
     if (job->fit != WF_FIT_STRETCH) fit_evenly(job, par, x, y);
+}
+
+wf_resample_desc wf_describe_fields(const weft_job *job, const wf_image_info *first,
+                                    wf_rational rate, int64_t pictures) {
+    wf_resample_desc desc = {
+        .raster = &job->raster,
+        .aperture = job->aperture,
+        .timing = {.raster = &job->raster,
+                   .subframe_rate = rate,
+                   .subframe_center = job->subframe_time_center,
+                   .subframes = pictures,
+                   .width = wf_setup_width(job),
+                   .position = job->shutter_position,
+                   .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)},
+        .channels = 3,
+        .background = {job->background[0], job->background[1], job->background[2]},
+        .band_rows = 16,
+    };
+    wf_fit_picture(job, first, &desc.x, &desc.y);
+    return desc;
 }

@@ -156,25 +156,14 @@ static void choose_bands(const subframes *s, wf_resample_desc *desc) {
 static wf_resample_desc describe_fields(const wf_run *run) {
     const weft_job *job = run->job;
     const subframes *s = run->source;
-    wf_resample_desc desc = {
-        .raster = &job->raster,
-        .aperture = job->aperture,
-        .timing = {.raster = &job->raster,
-                   .subframe_rate = s->shown.rate,
-                   .edges = s->edges,
-                   .subframe_center = job->subframe_time_center,
-                   .subframes = (int64_t)run->setup.sequence.count,
-                   .width = wf_setup_width(job),
-                   .position = job->shutter_position,
-                   .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)},
-        .channels = s->options.want_alpha ? 4 : 3, /* later files may have alpha */
-        .background = {job->background[0], job->background[1], job->background[2]},
-    };
+    wf_resample_desc desc = wf_describe_fields(job, &s->first.info, s->shown.rate,
+                                               (int64_t)run->setup.sequence.count);
+    desc.timing.edges = s->edges;
+    desc.channels = s->options.want_alpha ? 4 : 3; /* later files may have alpha */
     if (s->edges)
         desc.timing.shown = wf_ratio_div(
             wf_ratio_difference(s->shown.times_s[desc.timing.subframes], s->shown.times_s[0]),
             wf_raster_field_period(&job->raster));
-    wf_fit_picture(job, &s->first.info, &desc.x, &desc.y);
     choose_bands(s, &desc);
     return desc;
 }

@@ -80,6 +80,7 @@ FUNCTIONS = {
     "weft_job_run": (_STATUS, _HANDLE, _ERROR),
     "weft_job_cancel": (None, _HANDLE),
     "weft_job_report": (c_char_p, _HANDLE),
+    "weft_job_plan": (_STATUS, _HANDLE, c_char_p, POINTER(c_char_p), _ERROR),
     "weft_fields_new": (_STATUS, _HANDLE, c_int64, FIELD_FN, c_void_p, POINTER(_HANDLE), _ERROR),
     "weft_fields_free": (None, _HANDLE),
     "weft_fields_push": (_STATUS, _HANDLE, POINTER(Samples), _ERROR),

@@ -1,6 +1,7 @@
 """Conversions as the command line has them."""
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import sys
@@ -231,6 +232,18 @@ class Job:
             self._busy = False
         self._calls.release()
         return self.report
+
+    def plan(self, format: str = "json") -> Any:
+        """What a renderer has to make for these options, before there is any of it: `weft plan`.
+
+        Job(raster="1080i50", frames="0-99", subframe_rate=400).plan() is the dict of its JSON; of
+        other formats the text comes back.
+        """
+        text = ctypes.c_char_p()
+        call(lib.weft_job_plan, self._idle(), os.fsencode(format), ctypes.byref(text))
+        self._calls.release()
+        told = (text.value or b"").decode()
+        return json.loads(told) if format == "json" else told
 
     def cancel(self) -> None:
         """Asks a running job to stop soon. From any thread."""

@@ -16,7 +16,7 @@
 
 /* Any text will do for these: what it names is looked for when the job runs. */
 static const char *const texts[] = {"layer",   "part", "ocio", "from", "to",
-                                    "display", "view", "look", "key"};
+                                    "display", "view", "look", "key",  "refine"};
 
 static bool takes_any_text(const char *name) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
