@@ -5,7 +5,7 @@
 build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libopenimageio-dev
                 libopencolorio-dev libdeflate-dev libxxhash-dev libcairo2-dev
                 liblua5.4-dev libjansson-dev libavformat-dev libavcodec-dev
-                libswresample-dev)
+                libswresample-dev libavfilter-dev)
 test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
                openimageio-tools chromium mandoc groff-base zsh fish python3-numpy parallel
                slurmctld slurmd slurm-client iproute2)

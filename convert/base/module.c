@@ -57,7 +57,8 @@ static const char *package_of(const char *name) {
     } packages[] = {{"oiio", "libopenimageio2.4"},
                     {"ocio", "libopencolorio2.1"},
                     {"plot", "libcairo2"},
-                    {"libav", "libavformat59 (and libavcodec59)"}};
+                    {"libav", "libavformat59 (and libavcodec59)"},
+                    {"deinterlace", "libavfilter8"}};
     for (size_t i = 0; i < sizeof packages / sizeof *packages; i++)
         if (!strcmp(packages[i].name, name)) return packages[i].package;
     return "it was linked with";
