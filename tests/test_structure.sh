@@ -86,6 +86,7 @@ convert/job         : filters/* color/* tracer/sample convert/base
 convert/media       : filters/* color/* convert/base convert/job
 convert/media/oiio  : filters/* convert/base convert/job convert/media
 convert/media/libav : filters/* color/* convert/base convert/job convert/media
+convert/media/deinterlace : filters/* convert/base convert/job convert/media
 convert/media/structure : convert/base convert/media
 convert/read/choice :
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice
@@ -96,7 +97,7 @@ convert/finish      : filters/* color/* convert/base convert/job convert/read co
 convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
 convert/plan        : filters/* convert/base convert/job convert/media convert/read convert/run convert/run/time
-convert/check       : filters/* color/* convert/base convert/job convert/media convert/read
+convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/plot

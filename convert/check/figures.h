@@ -21,6 +21,11 @@ typedef struct wf_figures {
     wf_video_info info;
     double flicker_rms, flicker_p999; /* of half the difference of a frame's two fields */
     double flicker_share;             /* of the picture, where it is above 2 % */
+    /* What is seen of it, in just noticeable differences; the share where it is above 1. */
+    double visible_jnd_p999, visible_share;
+    /* Amplitude of what comes and goes at edges that drift by half a line a field, and the same
+     * as it is seen. */
+    double crawl_rms, crawl_p999, crawl_jnd_p999, crawl_share;
     double sharpness; /* vertical response to the chart, 1 where nothing is lost */
     /* sqrt(U^2 + V^2) that luma alone gains from cheap composite coding and a notch decoder,
      * and the luma that color alone gains, in units of Y'. */
@@ -35,12 +40,13 @@ typedef struct wf_figures {
     double rmse, psnr, ssim;
     wf_plane_difference plane[3][3]; /* [plane][whole frame, top field, bottom field] */
     const char *plane_name[3];       /* "y", "cb", "cr"; NULL: there is no reference */
-    float *heat; /* [lines][width_px] RMS flicker; free(); NULL unless wanted */
+    float *heat; /* [lines][width_px] RMS flicker, of the kind asked for; free(); NULL unless
+                    wanted */
 } wf_figures;
 
 /* One figure by its JSON name. */
 typedef struct wf_figure_kind {
-    const char *group, *key; /* "flicker", "rms"; key NULL: the group is the figure */
+    const char *group, *key; /* "flicker.visible", "share"; key NULL: the group is the figure */
     const char *help;
     size_t offset;    /* of the double in wf_figures */
     bool more_better; /* a limit on it is the least that is allowed */

@@ -8,24 +8,33 @@
 
 #include "convert/base/clock.h"
 #include "convert/check/measure_difference.h"
+#include "convert/check/measure_flicker.h"
 #include "convert/check/measurement.h"
 
-static const wf_measurement *const measurements[] = {&wf_measure_flicker, &wf_measure_sharpness,
-                                                     &wf_measure_composite, &wf_measure_order,
-                                                     &wf_measure_legal};
+static const wf_measurement *const measurements[] = {
+    &wf_measure_sharpness, &wf_measure_composite, &wf_measure_order, &wf_measure_legal};
 
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
-#define DELIVERY     3 /* index of the first that a delivery is held to: order and legality */
+#define DELIVERY     2 /* index of the first that a delivery is held to: order and legality */
 
 typedef struct measuring {
     const char *path;
     const wf_measure_options *options;
+    bool deinterlaces; /* the display does */
     wf_video *video, *reference;
     wf_signals *signals;
     wf_signal *signal[2]; /* [frame % 2]: of this frame and of the one before */
     size_t first;         /* of the measurements that are made */
     void *state[MEASUREMENTS];
     wf_difference *difference;
+    /* Of a display that deinterlaces: what makes signals of the reference's frames, which are
+     * as many as fields. */
+    wf_signals *reference_signals;
+    wf_signal *reference_signal;
+    int64_t references; /* frames of it that have been compared */
+    wf_screen *screen;  /* NULL, as are the next two, where only a delivery is looked at */
+    wf_flicker *flicker;
+    wf_crawl *crawl; /* NULL: fields have no order in time */
     int64_t frames;
     double began_s;
 } measuring;
@@ -37,12 +46,21 @@ static weft_status check_lines(const char *path, const wf_video_info *info, weft
                    path, info->lines);
 }
 
-static weft_status open_reference(measuring *m, weft_error *err) {
-    const wf_video_options options = {.raster = m->options->raster,
-                                      .max_memory_bytes = m->options->max_memory_bytes};
-    if (!m->options->against) return WEFT_OK;
-    weft_status status = wf_video_open(m->options->against, &options, &m->reference, err);
-    if (status) return status;
+/* A reference of what is shown has a frame a field. */
+static weft_status check_rate(const measuring *m, weft_error *err) {
+    const wf_video_info *a = wf_video_info_of(m->video), *b = wf_video_info_of(m->reference);
+    double fields = 2 * wf_ratio_value(a->raster.frame_rate);
+    double frames = wf_ratio_value(b->raster.frame_rate);
+    if (!m->deinterlaces || fabs(frames / fields - 1) < 0.001) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_USAGE,
+        "%s: a reference of what --display %s shows has %.6g frames a second, one for "
+        "each field of %s, and this has %.6g; render it on a progressive raster of "
+        "that rate, or leave --display out to compare frames as they are coded",
+        m->options->against, wf_display_name(m->options->display), fields, m->path, frames);
+}
+
+static weft_status check_planes(const measuring *m, weft_error *err) {
     const wf_video_info *a = wf_video_info_of(m->video), *b = wf_video_info_of(m->reference);
     if (a->width_px != b->width_px || a->lines != b->lines)
         return wf_fail(err, WEFT_USAGE, "%s is %dx%d and %s, its reference, %dx%d", m->path,
@@ -52,8 +70,51 @@ static weft_status open_reference(measuring *m, weft_error *err) {
         return wf_fail(err, WEFT_USAGE,
                        "%s is %s and %s, its reference, %s: planes differ; convert one of them",
                        m->path, a->format, m->options->against, b->format);
-    m->difference = wf_difference_new(a);
+    return WEFT_OK;
+}
+
+static weft_status open_reference(measuring *m, weft_error *err) {
+    const wf_video_options options = {.raster = m->deinterlaces ? NULL : m->options->raster,
+                                      .max_memory_bytes = m->options->max_memory_bytes};
+    if (!m->options->against) return WEFT_OK;
+    weft_status status = wf_video_open(m->options->against, &options, &m->reference, err);
+    if (!status) status = check_planes(m, err);
+    if (!status) status = check_rate(m, err);
+    if (!status && m->deinterlaces)
+        status = wf_signals_new(wf_video_info_of(m->reference), &m->reference_signals, err);
+    if (!status && m->deinterlaces)
+        status = wf_signal_new(m->reference_signals, &m->reference_signal, err);
+    if (status) return status;
+    const wf_video_info *shown = m->screen ? wf_screen_info(m->screen) : NULL;
+    m->difference = wf_difference_new(shown ? shown : wf_video_info_of(m->video));
     return m->difference ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+}
+
+/* What is shown takes about so many floats a pixel besides what frames and signals take. */
+static weft_status check_memory(const measuring *m, weft_error *err) {
+    const wf_video_info *info = wf_video_info_of(m->video);
+    double floats = m->deinterlaces ? 54 : 38;
+    double bytes = floats * sizeof(float) * info->width_px * info->lines;
+    if (bytes <= (double)m->options->max_memory_bytes) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_NO_MEMORY,
+        "%s: measuring frames of %dx%d takes %.0f MB, and --max-memory allows %zu MB; "
+        "allow more",
+        m->path, info->width_px, info->lines, bytes / (1 << 20),
+        m->options->max_memory_bytes >> 20);
+}
+
+static weft_status begin_screen(measuring *m, weft_error *err) {
+    const wf_video_info *info = wf_video_info_of(m->video);
+    if (m->options->of_delivery) return WEFT_OK;
+    weft_status status = check_memory(m, err);
+    if (!status) status = wf_screen_new(info, m->options->display, &m->screen, err);
+    if (status) return status;
+    bool drifts = info->raster.scan == WF_INTERLACED && info->scan_known;
+    m->flicker = wf_flicker_new(info, m->options);
+    m->crawl = drifts ? wf_crawl_new(info, m->options) : NULL;
+    if (m->flicker && (m->crawl || !drifts)) return WEFT_OK;
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", m->path);
 }
 
 static weft_status begin(measuring *m, weft_error *err) {
@@ -62,7 +123,9 @@ static weft_status begin(measuring *m, weft_error *err) {
     weft_status status = wf_video_open(m->path, &options, &m->video, err);
     if (status) return status;
     const wf_video_info *info = wf_video_info_of(m->video);
+    m->deinterlaces = m->options->display >= WF_DISPLAY_BWDIF;
     status = check_lines(m->path, info, err);
+    if (!status) status = begin_screen(m, err);
     if (!status) status = open_reference(m, err);
     if (!status) status = wf_signals_new(info, &m->signals, err);
     for (int i = 0; i < 2 && !status; i++)
@@ -74,18 +137,58 @@ static weft_status begin(measuring *m, weft_error *err) {
     return status;
 }
 
-/* Takes the reference's frame, which has to be there exactly if the frame is. */
+/* Takes the reference's next frame, which has to be there exactly if a picture is. */
+static weft_status next_reference(measuring *m, bool there, const wf_video_frame **reference,
+                                  weft_error *err) {
+    weft_status status = wf_video_next(m->reference, reference, err);
+    if (status) return status;
+    if (there != !!*reference)
+        return wf_fail(err, WEFT_FAILED,
+                       "%s has %s %s than %s, its reference, has frames (%" PRId64 ")", m->path,
+                       there ? "more" : "fewer", m->deinterlaces ? "fields" : "frames",
+                       m->options->against, m->references);
+    m->references += there;
+    return WEFT_OK;
+}
+
+/* Compares a frame as it is coded; NULL: there are no more. */
 static weft_status compare(measuring *m, const wf_video_frame *frame, weft_error *err) {
     const wf_video_frame *reference;
-    if (!m->reference) return WEFT_OK;
-    weft_status status = wf_video_next(m->reference, &reference, err);
-    if (status) return status;
-    if (!frame != !reference)
-        return wf_fail(err, WEFT_FAILED,
-                       "%s has %s frames than %s, its reference (%" PRId64 ")", m->path,
-                       frame ? "more" : "fewer", m->options->against, m->frames);
-    if (frame) wf_difference_add(m->difference, frame, reference);
-    return WEFT_OK;
+    if (!m->reference || m->deinterlaces) return WEFT_OK;
+    weft_status status = next_reference(m, frame, &reference, err);
+    if (!status && frame) wf_difference_add(m->difference, frame, reference);
+    return status;
+}
+
+/* Compares the two pictures that a frame was deinterlaced to. Linear light is compared as it is
+ * encoded. */
+static weft_status compare_shown(measuring *m, const wf_shown *shown, weft_error *err) {
+    const wf_video_frame *reference;
+    if (!m->reference || !m->deinterlaces) return WEFT_OK;
+    weft_status status = WEFT_OK;
+    for (int k = 0; k < 2 && !status; k++) {
+        status = next_reference(m, true, &reference, err);
+        if (status) break;
+        if (wf_video_info_of(m->reference)->layout == WF_LINEAR) {
+            wf_signals_take(m->reference_signals, reference, m->reference_signal);
+            reference = &m->reference_signal->coded;
+        }
+        wf_difference_add(m->difference, shown->picture[k], reference);
+    }
+    return status;
+}
+
+/* Shows a frame that `next` follows, `other` being the one its content is compared with: what
+ * is still is the same in both. */
+static weft_status show(measuring *m, const wf_signal *frame, const wf_signal *next,
+                        const wf_signal *other, weft_error *err) {
+    const wf_shown *shown;
+    if (!m->screen) return WEFT_OK;
+    weft_status status = wf_screen_show(m->screen, frame, next, &shown, err);
+    if (status || !shown) return status;
+    wf_flicker_add(m->flicker, frame, other, shown);
+    if (m->crawl) wf_crawl_add(m->crawl, frame, shown);
+    return compare_shown(m, shown, err);
 }
 
 static wf_signal *signal_of(const measuring *m, int64_t frame) {
@@ -111,6 +214,8 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
         wf_signals_take(m->signals, frame, signal);
         for (size_t i = m->first; i < MEASUREMENTS; i++)
             measurements[i]->add(m->state[i], signal, signal_of(m, m->frames - 1));
+        status = show(m, signal_of(m, m->frames - 1), signal, signal, err);
+        if (status) return status;
         show_progress(m);
     }
 }
@@ -119,16 +224,32 @@ static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) 
     if (!m->frames) return wf_fail(err, WEFT_FAILED, "%s: there is no frame in it", m->path);
     figures->frames = m->frames;
     figures->info = *wf_video_info_of(m->video);
+    const wf_signal *last = signal_of(m, m->frames - 1), *before = signal_of(m, m->frames - 2);
+    weft_status status = show(m, last, NULL, before, err);
+    const wf_video_frame *none;
+    if (!status && m->reference && m->deinterlaces)
+        status = next_reference(m, false, &none, err);
+    if (status) return status;
     for (size_t i = m->first; i < MEASUREMENTS; i++)
-        measurements[i]->finish(m->state[i], signal_of(m, m->frames - 1),
-                                signal_of(m, m->frames - 2), figures);
+        measurements[i]->finish(m->state[i], last, before, figures);
+    if (m->flicker) wf_flicker_finish(m->flicker, figures);
+    if (m->crawl) wf_crawl_finish(m->crawl, figures);
     if (m->difference) wf_difference_finish(m->difference, figures);
     if (!m->options->want_heat || figures->heat) return WEFT_OK;
-    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the heat map", m->path);
+    return wf_fail(
+        err, WEFT_USAGE,
+        "%s: there is no crawl to draw: it is that of interlaced video, and this does "
+        "not say that it is any; name its --raster",
+        m->path);
 }
 
 static void end(measuring *m) {
     for (size_t i = m->first; i < MEASUREMENTS; i++) measurements[i]->free(m->state[i]);
+    wf_flicker_free(m->flicker);
+    wf_crawl_free(m->crawl);
+    wf_screen_free(m->screen);
+    wf_signal_free(m->reference_signal);
+    wf_signals_free(m->reference_signals);
     wf_difference_free(m->difference);
     for (int i = 0; i < 2; i++) wf_signal_free(m->signal[i]);
     wf_signals_free(m->signals);

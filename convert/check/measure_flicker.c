@@ -1,113 +1,113 @@
-/* Interline flicker: what differs between the two fields of a frame where nothing moves. */
+/* Interline flicker: what differs between the two fields of a frame where nothing moves, and
+ * how much of that is seen. */
+#include "convert/check/measure_flicker.h"
+
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "convert/check/heat.h"
 #include "convert/check/histogram.h"
-#include "convert/check/measurement.h"
+#include "convert/check/same_content.h"
+#include "filters/seen/seen.h"
 
-#define SAME     0.01f /* of white: fields of one parity that differ by no more show the same */
 #define SEEN     0.02f /* of white: flicker above this counts for the share */
 #define CRT_LEFT 0.1f  /* of a line's light is left when the next field is drawn */
 
-typedef struct flicker {
-    wf_histogram values;
-    wf_display_kind display;
-    size_t samples;
-    float *heat;    /* [lines][width]: sums of the flicker's squares; NULL: not wanted */
-    unsigned *seen; /* [lines][width]: how many frames each is the sum of */
-} flicker;
+struct wf_flicker {
+    int width_px, lines;
+    float drop; /* what a line loses until the next field, as a share */
+    wf_heat_kind heat_kind;
+    wf_heat heat;
+    wf_histogram values, jnds;
+    wf_seen *seen;
+    bool *same;                     /* [lines][width_px] */
+    float *modulation, *mean, *jnd; /* the same */
+};
 
-static void flicker_free(void *state) {
-    flicker *f = state;
+void wf_flicker_free(wf_flicker *f) {
     if (!f) return;
     wf_histogram_free(&f->values);
-    free(f->heat);
-    free(f->seen);
+    wf_histogram_free(&f->jnds);
+    wf_heat_free(&f->heat);
+    wf_seen_free(f->seen);
+    free(f->same);
+    free(f->modulation);
+    free(f->mean);
+    free(f->jnd);
     free(f);
 }
 
-static void *flicker_begin(const wf_video_info *info, const wf_measure_options *options) {
-    flicker *f = calloc(1, sizeof *f);
+wf_flicker *wf_flicker_new(const wf_video_info *info, const wf_measure_options *options) {
+    wf_flicker *f = calloc(1, sizeof *f);
     if (!f) return NULL;
-    f->display = options->display;
-    f->samples = (size_t)info->width_px * (size_t)info->lines;
-    bool made = wf_histogram_init(&f->values, SEEN);
-    if (options->want_heat) {
-        f->heat = calloc(f->samples, sizeof *f->heat);
-        f->seen = calloc(f->samples, sizeof *f->seen);
-        made &= f->heat && f->seen;
-    }
+    size_t samples = (size_t)info->width_px * (size_t)info->lines;
+    wf_viewing viewing =
+        wf_screen_viewing(info, options, wf_ratio_value(info->raster.frame_rate));
+    f->width_px = info->width_px;
+    f->lines = info->lines;
+    f->drop = options->display == WF_DISPLAY_CRT ? 1 - CRT_LEFT : 1;
+    f->heat_kind = options->heat;
+    f->seen = wf_seen_new(&viewing);
+    f->same = malloc(samples * sizeof *f->same);
+    f->modulation = malloc(samples * sizeof *f->modulation);
+    f->mean = malloc(samples * sizeof *f->mean);
+    f->jnd = malloc(samples * sizeof *f->jnd);
+    bool made = f->seen && f->same && f->modulation && f->mean && f->jnd;
+    made &= wf_histogram_init(&f->values, SEEN);
+    made &= wf_histogram_init(&f->jnds, 1);
+    if (options->want_heat && options->heat != WF_HEAT_CRAWL)
+        made &= wf_heat_init(&f->heat, samples);
     if (made) return f;
-    flicker_free(f);
+    wf_flicker_free(f);
     return NULL;
 }
 
-/* A line of the raster and the two lines of the other field about it, from which a bob display
- * makes the light of that field here. At the picture's edge both are the only one there is. */
-typedef struct line_pair {
-    const float *own, *above, *below;
-} line_pair;
-
-static line_pair lines_at(const wf_signal *s, int y) {
-    const float *own = s->light + (size_t)y * (size_t)s->width_px;
-    ptrdiff_t width = s->width_px;
-    const float *above = y > 0 ? own - width : own + width;
-    const float *below = y < s->lines - 1 ? own + width : own - width;
-    return (line_pair){own, above, below};
+/* Half of what differs between the fields, and what they have in common; what moves has no
+ * modulation. False: none has. */
+static bool find_modulation(wf_flicker *f, const wf_shown *shown) {
+    size_t samples = (size_t)f->width_px * (size_t)f->lines;
+    const float *top = shown->field[0], *bottom = shown->field[1];
+    bool any = false;
+    for (size_t i = 0; i < samples; i++) {
+        float half = 0.5f * (top[i] - bottom[i]);
+        f->modulation[i] = f->same[i] ? half : 0;
+        f->mean[i] = 0.5f * (top[i] + bottom[i]);
+        any |= f->modulation[i] != 0;
+    }
+    return any;
 }
 
-static float stretched(line_pair p, int x) {
-    return 0.5f * (p.above[x] + p.below[x]);
-}
-
-static bool same_content(line_pair a, line_pair b, int x) {
-    return fabsf(a.own[x] - b.own[x]) <= SAME &&
-           fabsf(stretched(a, x) - stretched(b, x)) <= SAME;
-}
-
-static float flicker_at(const flicker *f, line_pair p, int x) {
-    if (f->display == WF_DISPLAY_CRT) return 0.5f * (1 - CRT_LEFT) * fabsf(p.own[x]);
-    return 0.5f * fabsf(p.own[x] - stretched(p, x));
-}
-
-/* Adds the flicker of a frame's two fields where another frame shows the same content, or
- * everywhere if there is no other. */
-static void add_pair(flicker *f, const wf_signal *s, const wf_signal *other) {
-    for (int y = 0; y < s->lines; y++) {
-        line_pair p = lines_at(s, y), q = lines_at(other ? other : s, y);
-        for (int x = 0; x < s->width_px; x++) {
-            if (!same_content(p, q, x)) continue;
-            float value = flicker_at(f, p, x);
-            wf_histogram_add(&f->values, value);
-            if (!f->heat) continue;
-            size_t at = (size_t)y * (size_t)s->width_px + (size_t)x;
-            f->heat[at] += value * value;
-            f->seen[at]++;
-        }
+static void count(wf_flicker *f) {
+    size_t samples = (size_t)f->width_px * (size_t)f->lines;
+    for (size_t i = 0; i < samples; i++) {
+        if (!f->same[i]) continue;
+        float value = f->drop * fabsf(f->modulation[i]);
+        wf_histogram_add(&f->values, value);
+        wf_histogram_add(&f->jnds, f->jnd[i]);
+        wf_heat_add(&f->heat, i, f->heat_kind == WF_HEAT_FLICKER ? value : f->jnd[i]);
     }
 }
 
-static void flicker_add(void *state, const wf_signal *signal, const wf_signal *before) {
-    if (before) add_pair(state, before, signal);
+void wf_flicker_add(wf_flicker *f, const wf_signal *frame, const wf_signal *other,
+                    const wf_shown *shown) {
+    size_t width = (size_t)f->width_px;
+    if (!other) other = frame;
+    for (int y = 0; y < f->lines; y++)
+        wf_same_content(frame->light, other->light, f->width_px, f->lines, y, 0,
+                        f->same + (size_t)y * width);
+    if (find_modulation(f, shown))
+        wf_seen_jnd(f->seen, f->modulation, NULL, f->mean, f->jnd);
+    else
+        memset(f->jnd, 0, width * (size_t)f->lines * sizeof *f->jnd);
+    count(f);
 }
 
-static float *heat_of(flicker *f) {
-    float *heat = f->heat;
-    for (size_t i = 0; heat && i < f->samples; i++)
-        heat[i] = f->seen[i] ? sqrtf(heat[i] / (float)f->seen[i]) : 0;
-    f->heat = NULL;
-    return heat;
-}
-
-static void flicker_finish(void *state, const wf_signal *last, const wf_signal *before,
-                           wf_figures *figures) {
-    flicker *f = state;
-    add_pair(f, last, before);
+void wf_flicker_finish(wf_flicker *f, wf_figures *figures) {
     figures->flicker_rms = wf_histogram_rms(&f->values);
     figures->flicker_p999 = wf_histogram_quantile(&f->values, 0.999);
     figures->flicker_share = wf_histogram_share(&f->values);
-    figures->heat = heat_of(f);
+    figures->visible_jnd_p999 = wf_histogram_quantile(&f->jnds, 0.999);
+    figures->visible_share = wf_histogram_share(&f->jnds);
+    if (f->heat.square) figures->heat = wf_heat_take(&f->heat);
 }
-
-const wf_measurement wf_measure_flicker = {flicker_begin, flicker_add, flicker_finish,
-                                           flicker_free};

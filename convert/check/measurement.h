@@ -18,7 +18,7 @@ typedef struct wf_measurement {
 } wf_measurement;
 
 /* Each is defined in the file of its name; measure.c lists them. */
-extern const wf_measurement wf_measure_flicker, wf_measure_sharpness, wf_measure_composite,
-    wf_measure_order, wf_measure_legal;
+extern const wf_measurement wf_measure_sharpness, wf_measure_composite, wf_measure_order,
+    wf_measure_legal;
 
 #endif

@@ -1,6 +1,7 @@
 /* weft measure: flicker, cross-color, field order, legality and differences of video. */
 #include "convert/program/measure_parts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,7 @@
 
 typedef struct measure_state {
     const char *against, *chart, *display, *heatmap, *raster_name, *progress, *max_memory;
+    const char *heat, *view_distance, *peak;
     wf_meter meter;
     wf_cmd_list limits;
     bool json;
@@ -46,9 +48,28 @@ static weft_status read_chart(const char *text, wf_measure_options *o, weft_erro
 
 static weft_status read_display(const char *text, wf_measure_options *o, weft_error *err) {
     int display = WF_DISPLAY_BOB;
-    weft_status status = wf_cmd_choose("display", "bob|crt", text, &display, err);
+    weft_status status =
+        wf_cmd_choose("display", "bob|crt|bwdif|yadif|w3fdif", text, &display, err);
     o->display = (wf_display_kind)display;
     return status;
+}
+
+static weft_status read_heat(const char *text, wf_measure_options *o, weft_error *err) {
+    int heat = WF_HEAT_FLICKER;
+    weft_status status = wf_cmd_choose("heat", "flicker|visible|crawl", text, &heat, err);
+    o->heat = (wf_heat_kind)heat;
+    return status;
+}
+
+/* A number of an option, from low to high. */
+static weft_status read_number(const char *option, const char *text, double low, double high,
+                               const char *what, double *to, weft_error *err) {
+    char *end;
+    if (!text) return WEFT_OK;
+    *to = strtod(text, &end);
+    if (end != text && !*end && *to >= low && *to <= high) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes %s, from %g to %g",
+                   option, text, what, low, high);
 }
 
 /* Reads every --limit, each of which may hold several limits with commas between them. */
@@ -121,33 +142,59 @@ static weft_status read_state(measure_state *s, int files, char **paths, weft_er
     if (!status) status = read_memory(s, err);
     if (!status) status = read_chart(s->chart, &s->options, err);
     if (!status) status = read_display(s->display, &s->options, err);
+    if (!status) status = read_heat(s->heat, &s->options, err);
+    if (!status)
+        status = read_number("view-distance", s->view_distance, 0.25, 50,
+                             "a number of picture heights", &s->options.view_heights, err);
+    if (!status)
+        status = read_number("peak", s->peak, 1, 10000, "a luminance in cd/m2",
+                             &s->options.peak_cd_m2, err);
     if (!status) status = read_raster(s, err);
     return status ? status : read_limits(s, err);
 }
 
 /* ---- The heat map ---- */
 
+/* What each kind of heat map is called, and the figure that its colors reach to. */
+static const struct {
+    const char *title;
+    size_t high;
+} heats[] = {{"Interline flicker", offsetof(wf_figures, flicker_p999)},
+             {"Visible flicker", offsetof(wf_figures, visible_jnd_p999)},
+             {"Crawl", offsetof(wf_figures, crawl_jnd_p999)}};
+
+static void describe_heat(const measure_state *s, const wf_figures *f, char text[128]) {
+    const char *format = "99.9th percentile %.3g JND; over 1 JND: %.2g %%";
+    if (s->options.heat == WF_HEAT_VISIBLE)
+        snprintf(text, 128, format, f->visible_jnd_p999, 100 * f->visible_share);
+    else if (s->options.heat == WF_HEAT_CRAWL)
+        snprintf(text, 128, format, f->crawl_jnd_p999, 100 * f->crawl_share);
+    else
+        snprintf(text, 128, "RMS %.4f, 99.9th percentile %.3f of white; over 2 %%: %.2g %%",
+                 f->flicker_rms, f->flicker_p999, 100 * f->flicker_share);
+}
+
 /* The value that is drawn in the strongest color: the 99.9th percentile, rounded up to a round
  * number. */
 static double round_up(double value) {
-    static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+    static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
         if (value <= steps[i]) return steps[i];
-    return 1;
+    return isnan(value) ? 1 : 100;
 }
 
 static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_error *err) {
     char subtitle[128];
-    snprintf(subtitle, sizeof subtitle,
-             "RMS %.4f, 99.9th percentile %.3f of white; over 2 %%: %.2g %%", f->flicker_rms,
-             f->flicker_p999, 100 * f->flicker_share);
-    const wf_plot_map map = {.title = "Interline flicker",
+    double high;
+    describe_heat(s, f, subtitle);
+    memcpy(&high, (const char *)f + heats[s->options.heat].high, sizeof high);
+    const wf_plot_map map = {.title = heats[s->options.heat].title,
                              .subtitle = subtitle,
                              .value = f->heat,
                              .width_px = f->info.width_px,
                              .lines = f->info.lines,
                              .pixel_aspect = wf_ratio_value(f->info.raster.pixel_aspect),
-                             .high = round_up(f->flicker_p999)};
+                             .high = round_up(high)};
     return wf_cmd_draw("wf_plot_heat", &map, s->heatmap, err);
 }
 
@@ -220,12 +267,21 @@ static const wf_cmd_option options[] = {
       "line is measured.",
       group},
      .offset = STATE(chart)},
-    {{"display", "bob|crt", "bob",
+    {{"display", "bob|crt|bwdif|yadif|w3fdif", "bob",
       "What shows the fields: bob stretches each over the frame, crt draws it on its own lines "
-      "while the other fades.",
+      "while the other fades, the others are FFmpeg's deinterlacers, with a picture a field.",
       group},
      .offset = STATE(display)},
-    {{"against", "REF", NULL, "Also the differences from this video, by plane and field.",
+    {{"view-distance", "N", "6, of more than 608 lines 3",
+      "How far the eye is, in heights of the picture, for what is seen of flicker and crawl.",
+      group},
+     .offset = STATE(view_distance)},
+    {{"peak", "CD", "100, of PQ and HLG 203",
+      "The luminance of white on the display, in cd/m2, for the same.", group},
+     .offset = STATE(peak)},
+    {{"against", "REF", NULL,
+      "Also the differences from this video, by plane and field; with a display that "
+      "deinterlaces, of its pictures from progressive video with a frame for each field.",
       group},
      .offset = STATE(against)},
     {{"limit", "KEY=V", NULL,
@@ -236,6 +292,10 @@ static const wf_cmd_option options[] = {
      .repeats = true},
     {{"heatmap", "FILE", NULL, "Draw where it flickers into a PNG file.", group},
      .offset = STATE(heatmap)},
+    {{"heat", "flicker|visible|crawl", "flicker",
+      "What --heatmap draws: light that differs, or what is seen of flicker or of crawl.",
+      group},
+     .offset = STATE(heat)},
     {WF_CMD_PROGRESS(group), .offset = STATE(progress)},
     {{"max-memory", "SIZE", "2G", "How much memory the frames in hand may take.", group},
      .offset = STATE(max_memory)},
@@ -260,6 +320,14 @@ const wf_cmd wf_cmd_measure = {
         "  flicker.rms .p999 .share  half the difference of a frame's two fields, each shown "
         "as\n"
         "                            the display does, where the content stands still\n"
+        "  flicker.visible.jnd_p999 .share  what is seen of it at the display's frame rate, "
+        "in\n"
+        "                            just noticeable differences (JND), and where it is over "
+        "1\n"
+        "  crawl.rms .p999 .jnd_p999 .share  what comes and goes at edges that drift by half "
+        "a\n"
+        "                            line a field, in light, and as the eye that follows sees "
+        "it\n"
         "  sharpness                 vertical response, of charts\n"
         "  cross_color.rms .p999     color that cheap composite coding makes of luma\n"
         "  cross_luma.rms .p999      luma that it makes of color (525 and 625 lines only)\n"

@@ -25,13 +25,29 @@ static void print_row(const char *name) {
 }
 
 static void print_flicker(const wf_measure_options *options, const wf_figures *f) {
-    print_row(options->display == WF_DISPLAY_CRT ? "interline flicker, crt"
-                                                 : "interline flicker");
+    char name[64] = "interline flicker";
+    if (options->display != WF_DISPLAY_BOB)
+        snprintf(name, sizeof name, "interline flicker, %s", wf_display_name(options->display));
+    print_row(name);
     print_number("rms", f->flicker_rms, "");
     print_number("p999", f->flicker_p999, "");
     print_percent("over 2 %:", f->flicker_share);
     if (isnan(f->flicker_rms)) printf("  (nothing is still in it)");
     putchar('\n');
+    print_row("seen of it");
+    print_number("p999", f->visible_jnd_p999, " JND");
+    print_percent("over 1 JND:", f->visible_share);
+    putchar('\n');
+    if (isnan(f->crawl_rms)) return;
+    print_row("crawl");
+    print_number("rms", f->crawl_rms, "");
+    print_number("p999", f->crawl_p999, "");
+    print_number("seen", f->crawl_jnd_p999, " JND");
+    print_percent("over 1 JND:", f->crawl_share);
+    putchar('\n');
+}
+
+static void print_sharpness(const wf_figures *f) {
     if (isnan(f->sharpness)) return;
     print_row("vertical sharpness");
     print_number("response", f->sharpness, "");
@@ -96,6 +112,7 @@ void wf_measure_print(const char *path, const wf_measure_options *options,
            f->info.scan_known ? wf_raster_order(&f->info.raster)
                               : "it does not say how scanned");
     print_flicker(options, f);
+    print_sharpness(f);
     print_composite(f);
     print_order(f);
     print_row("outside");
@@ -107,24 +124,53 @@ void wf_measure_print(const char *path, const wf_measure_options *options,
 
 /* ---- For programs ---- */
 
+/* Whether `name`, such as "flicker.visible", is the group that is open or lies in it. */
+static bool lies_in(const char *open, const char *name) {
+    size_t length = strlen(open);
+    if (!length) return true;
+    if (strlen(name) < length || memcmp(open, name, length) != 0) return false;
+    return strlen(name) == length || name[length] == '.';
+}
+
+/* Closes objects until what is open is where `name` lies in. */
+static void leave_groups(wf_json *json, char *open, const char *name) {
+    while (!lies_in(open, name)) {
+        char *dot = strrchr(open, '.');
+        *(dot ? dot : open) = '\0';
+        wf_json_close(json);
+    }
+}
+
+/* Opens objects, one in the other, until `name` is open. */
+static void enter_groups(wf_json *json, char open[64], const char *name) {
+    size_t from = strlen(open), whole = strlen(name);
+    while (from < whole) {
+        char word[64];
+        from += name[from] == '.';
+        size_t length = strcspn(name + from, ".");
+        snprintf(word, sizeof word, "%.*s", (int)length, name + from);
+        wf_json_open(json, word, '{');
+        from += length;
+    }
+    snprintf(open, 64, "%s", name);
+}
+
 /* Adds the figures, those of a group as an object: in the table they follow each other. */
 static void add_figures(wf_json *json, const wf_figures *f) {
     const wf_figure_kind *kind;
-    const char *group = NULL;
+    char open[64] = "";
     for (size_t i = 0; (kind = wf_figure_at(i)); i++) {
-        bool continues = group && !strcmp(group, kind->group);
-        if (group && !continues) wf_json_close(json);
-        if (!continues) group = NULL;
+        leave_groups(json, open, kind->key ? kind->group : "");
         if (!kind->key) {
             wf_json_real(json, kind->group, wf_figure_value(f, kind));
             continue;
         }
-        if (!continues) wf_json_open(json, group = kind->group, '{');
-        if (!strcmp(group, "order") && !continues)
-            wf_json_text(json, "verdict", f->order_verdict);
+        bool begins = strcmp(open, kind->group);
+        enter_groups(json, open, kind->group);
+        if (!strcmp(open, "order") && begins) wf_json_text(json, "verdict", f->order_verdict);
         wf_json_real(json, kind->key, wf_figure_value(f, kind));
     }
-    if (group) wf_json_close(json);
+    leave_groups(json, open, "");
 }
 
 static void add_plane(wf_json *json, const char *key, const wf_plane_difference *d) {

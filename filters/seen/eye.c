@@ -53,6 +53,7 @@ static void want(const wf_viewing *v, double cd_m2, wanted *w) {
 /* Takes the best value of one weight after the other, until nothing changes any more. */
 static void fit(const wanted *w, double x[WF_EYE_BANDS]) {
     double normal[WF_EYE_BANDS][WF_EYE_BANDS] = {{0}}, right[WF_EYE_BANDS] = {0};
+    double change = w->whole;
     for (int i = 0; i < POINTS; i++) {
         double weight = w->weight[i] * w->weight[i];
         for (int k = 0; k < WF_EYE_BANDS; k++) {
@@ -62,12 +63,15 @@ static void fit(const wanted *w, double x[WF_EYE_BANDS]) {
         }
     }
     for (int k = 0; k < WF_EYE_BANDS; k++) x[k] = w->whole / WF_EYE_BANDS;
-    for (int sweep = 0; sweep < SWEEPS; sweep++)
+    for (int sweep = 0; sweep < SWEEPS && change > 1e-7 * w->whole; sweep++) {
+        change = 0;
         for (int k = 0; k < WF_EYE_BANDS; k++) {
-            double rest = right[k];
+            double rest = right[k], before = x[k];
             for (int l = 0; l < WF_EYE_BANDS; l++) rest -= l == k ? 0 : normal[k][l] * x[l];
             x[k] = fmax(rest / normal[k][k], 0);
+            change += fabs(x[k] - before);
         }
+    }
 }
 
 /* Below this the eye sees no flicker; it keeps least squares from dividing 0 by 0. */

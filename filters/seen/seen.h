@@ -37,9 +37,9 @@ void wf_seen_free(wf_seen *seen); /* NULL is fine */
  * modulation, real[lines][width_px] or, where imaginary is not NULL, real + i imaginary, G the
  * band's low pass in both directions, and L the local luminance: that of mean[lines][width_px],
  * the light about which it is, white being 1, through a Gaussian with a deviation of half a
- * degree. Beyond the picture all are as at its edge. A modulation that is m everywhere about
- * one mean has m / mean times the sensitivity to a whole field. Local luminances below a
- * hundredth of a cd/m2 count as that. */
+ * degree. Beyond the picture all are as in a mirror in its last line or column. A modulation
+ * that is m everywhere about one mean has m / mean times the sensitivity to a whole field.
+ * Local luminances below a hundredth of a cd/m2 count as that. */
 void wf_seen_jnd(wf_seen *seen, const float *real, const float *imaginary, const float *mean,
                  float *jnd);
 

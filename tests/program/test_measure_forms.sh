@@ -38,7 +38,9 @@ check "flicker is told" prints "interline flicker"
 check "a single picture" exits 0 weft measure z.0000.exr --json
 check "has no order" value "d['order']['verdict'] is None and d['sharpness'] is None and d['difference']['rmse'] is None"
 check "keys" value "set(d) >= {'flicker', 'sharpness', 'cross_color', 'cross_luma', 'order', 'legal', 'difference'} and
-    set(d['flicker']) == {'rms', 'p999', 'share'} and set(d['cross_color']) == {'rms', 'p999'} and
+    set(d['flicker']) == {'rms', 'p999', 'share', 'visible'} and
+    set(d['flicker']['visible']) == {'jnd_p999', 'share'} and
+    set(d['crawl']) == {'rms', 'p999', 'jnd_p999', 'share'} and set(d['cross_color']) == {'rms', 'p999'} and
     set(d['legal']) == {'range_share', 'r103_share'} and set(d['order']) == {'verdict', 'ratio', 'agreement'}"
 
 # ---- Limits and heat maps ----

@@ -222,14 +222,18 @@ static double uniform(uint32_t *seed) {
     return (v ^ v >> 15) / 4294967296.0;
 }
 
+static int mirrored(int at, int count) {
+    while (at < 0 || at >= count) at = at < 0 ? -at : 2 * (count - 1) - at;
+    return at;
+}
+
 /* A picture through a Gaussian, in double and far out. */
 static double through(const float (*picture)[WIDTH], double deviation, int x0, int y0) {
     int reach = (int)(7 * deviation) + 2;
     double sum = 0, all = 0;
     for (int y = y0 - reach; y <= y0 + reach; y++)
         for (int x = x0 - reach; x <= x0 + reach; x++) {
-            int line = y < 0 ? 0 : y < LINES ? y : LINES - 1;
-            int column = x < 0 ? 0 : x < WIDTH ? x : WIDTH - 1;
+            int line = mirrored(y, LINES), column = mirrored(x, WIDTH);
             double r2 = (x - x0) * (x - x0) + (y - y0) * (y - y0);
             double w = exp(-0.5 * r2 / (deviation * deviation));
             sum += w * (double)picture[line][column];
