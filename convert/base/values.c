@@ -1,6 +1,7 @@
 /* Reads the values of options: sizes, chunks, colors, timecodes. */
 #include "convert/base/values.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "filters/base/rational.h"
@@ -129,4 +130,28 @@ bool wf_parse_timecode(const char *text, wf_timecode *out) {
     }
     *out = (wf_timecode){value[0], value[1], value[2], value[3], .drop_frame = text[8] == ';'};
     return true;
+}
+
+static int days_of(int year, int month) {
+    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    return month == 2 && year % 4 == 0 ? 29 : days[month - 1]; /* 2000 is a leap year */
+}
+
+bool wf_parse_date(const char *text, wf_date *out) {
+    static const char form[] = "0000-00-00T00:00:00Z";
+    const size_t day_alone = sizeof "0000-00-00" - 1;
+    wf_date d = {0};
+    size_t length = strlen(text);
+    if (length != day_alone && length != sizeof form - 1) return false;
+    for (size_t i = 0; i < length; i++) {
+        bool digit = text[i] >= '0' && text[i] <= '9';
+        if (form[i] == '0' ? !digit : text[i] != form[i]) return false;
+    }
+    sscanf(text, "%4d-%2d-%2dT%2d:%2d:%2d", &d.year, &d.month, &d.day, &d.hours, &d.minutes,
+           &d.seconds);
+    bool right = d.year >= 1970 && d.year <= 2099 && d.month >= 1 && d.month <= 12 &&
+                 d.day >= 1 && d.day <= days_of(d.year, d.month) && d.hours < 24 &&
+                 d.minutes < 60 && d.seconds < 60;
+    if (right) *out = d;
+    return right;
 }

@@ -34,4 +34,10 @@ typedef struct wf_timecode {
 } wf_timecode;
 bool wf_parse_timecode(const char *text, wf_timecode *out);
 
+/* "2026-11-30" or "2026-11-30T10:20:30Z" (ISO 8601, UTC), of the years 1970 to 2099. */
+typedef struct wf_date {
+    int year, month, day, hours, minutes, seconds; /* year 0: not known */
+} wf_date;
+bool wf_parse_date(const char *text, wf_date *out);
+
 #endif

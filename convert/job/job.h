@@ -67,6 +67,7 @@ struct weft_job {
 
     bool separate_fields; /* of image sequences: a file each */
     char *timecode;       /* of frame 0; NULL: the input's, or 00:00:00:00 */
+    char *date;           /* "2026-11-30T10:20:30Z"; NULL: unknown */
     char *codec;          /* NULL: the container's default */
     char *audio;          /* wf_audio_parse takes it; NULL: no sound */
     int64_t audio_tracks; /* 0: as many as the sound has channels */

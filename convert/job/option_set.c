@@ -244,6 +244,17 @@ weft_status wf_set_timecode(weft_job *job, const wf_option_row *row, const char 
                   err);
 }
 
+weft_status wf_set_date(weft_job *job, const wf_option_row *row, const char *value,
+                        weft_error *err) {
+    char whole[sizeof "0000-00-00T00:00:00Z"];
+    bool day_alone = !strchr(value, 'T');
+    if (wf_parse_date(value, &(wf_date){0})) {
+        snprintf(whole, sizeof whole, "%s%s", value, day_alone ? "T00:00:00Z" : "");
+        return wf_set_text(job, row, whole, err);
+    }
+    return refuse(row, value, "YYYY-MM-DD or YYYY-MM-DDTHH:MM:SSZ, of 1970 to 2099", err);
+}
+
 /* Which of these numbers have files is seen when the input is opened. */
 weft_status wf_set_frames(weft_job *job, const wf_option_row *row, const char *value,
                           weft_error *err) {

@@ -210,6 +210,11 @@ static const wf_option_row rows[] = {
         "Sound in .mov, .mxf, .mkv and, as AAC, .mp4, at 48 kHz: the input video's, that of a "
         "file (from so many seconds on), N tracks of silence or of 1 kHz at -18 dBFS.",
         set_audio, TEXT(audio), INITIAL),
+    ROW(files, VIDEO | COMPOSITE, "date", "YYYY-MM-DD[THH:MM:SSZ]", "not said",
+        "When containers say they were made (UTC); no clock is looked at, so that equal jobs "
+        "make "
+        "equal files.",
+        set_date, TEXT(date)),
     ROW(files, VIDEO | COMPOSITE, "audio-tracks", "N", "one a channel",
         "How many tracks of sound are written: channels beyond them are left out, tracks "
         "beyond "

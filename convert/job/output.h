@@ -56,6 +56,7 @@ typedef struct wf_output_options {
     bool stream_header;                 /* false: a later chunk, to be joined by cat */
     bool chunked;                       /* one of several chunks, of which each has files */
     const char *timecode;               /* of frame 0; validated */
+    const char *date;                   /* containers: validated; NULL: unknown */
     const char *color_space;            /* what the codes are in, for metadata; "" if unknown */
     const wf_chromaticities *primaries; /* of light; NULL: what color_space tells of them */
     wf_rational subframe_rate;          /* "frames" are subframes; {0, 0}: they are frames */

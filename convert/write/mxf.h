@@ -12,7 +12,7 @@
  * size, so that the whole file is known before its first frame: it is written from front to
  * end, and its header again, when its identifiers are known; the header is closed and
  * complete, the index is in the footer. Equal input makes equal bytes: identifiers are
- * hashes of what is in the file, dates are "unknown". */
+ * hashes of what is in the file, dates are those that are given, or "unknown". */
 
 typedef struct wf_mxf_options {
     const wf_raster *raster; /* borrowed; even width */
@@ -22,6 +22,7 @@ typedef struct wf_mxf_options {
     const char *color_space; /* as wf_output_options; borrowed */
     int64_t frame_count;     /* how many frames will be written */
     wf_timecode start;       /* of the first of them */
+    wf_date date;            /* that it was made */
     int64_t first_frame;     /* of the run, from which samples are shared out to frames */
     wf_sound_feed sound;     /* mono tracks of 16 or 24 bits, at most WF_SOUND_TRACKS */
 } wf_mxf_options;

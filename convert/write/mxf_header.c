@@ -93,9 +93,15 @@ static size_t begin_set(const writer *w, uint8_t kind, int n) {
     return begun;
 }
 
-/* The date "unknown": with the time of day no two runs would write the same bytes. */
+/* Year, month, day, hours, minutes, seconds and 1/250 s; zeros are "unknown". With the time of
+ * day no two runs would write the same bytes. */
 static void item_date(const writer *w, uint16_t tag) {
-    wf_item_number(w->b, tag, 8, 0);
+    const wf_date *d = &w->o->date;
+    const uint8_t stamp[8] = {(uint8_t)(d->year >> 8), (uint8_t)(d->year & 0xff),
+                              (uint8_t)d->month,       (uint8_t)d->day,
+                              (uint8_t)d->hours,       (uint8_t)d->minutes,
+                              (uint8_t)d->seconds,     0};
+    wf_item_bytes(w->b, tag, stamp, sizeof stamp);
 }
 
 static void item_reference(const writer *w, uint16_t tag, int n) {

@@ -50,6 +50,12 @@ static wf_timecode start_of(const wf_output_options *o) {
     return wf_timecode_add(&label, o->first_frame, o->raster->frame_rate);
 }
 
+static wf_date date_of(const wf_output_options *o) {
+    wf_date date = {0};
+    if (o->date) wf_parse_date(o->date, &date);
+    return date;
+}
+
 static weft_status start(wf_sink *s, weft_error *err) {
     const wf_output_options *o = &s->options;
     if (o->frame_count < 0)
@@ -65,6 +71,7 @@ static weft_status start(wf_sink *s, weft_error *err) {
         .color_space = o->color_space,
         .frame_count = o->frame_count,
         .start = start_of(o),
+        .date = date_of(o),
         .first_frame = o->first_frame,
         .sound = o->sound,
     };

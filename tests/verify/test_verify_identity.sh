@@ -49,6 +49,25 @@ check "every system item has it" bash -c "grep -c -a -o -P '\x06\x0a\x2b\x34\x01
 check "the packages are named by their numbers" bash -c "ffprobe -v error -show_entries format_tags=material_package_name,material_package_umid -of csv=p=0 own.mxf |
     tr A-F a-f | grep -Eq '([0-9a-f]{32}),weft \1$|weft ([0-9a-f]{32}),0x[0-9a-f]{32}\2$'"
 
+# ---- Dates are the job's ----
+
+dated() { ffprobe -v error -show_entries format_tags=creation_time,modification_date -of default=nw=1:nk=1 "$1"; }
+while read -r name codec raster; do
+    check "$name" shot in "date_$name" --codec "$codec" --raster "$raster" --date 2026-11-30T10:20:30Z
+    check "$name again" shot in "again_$name" --codec "$codec" --raster "$raster" --date 2026-11-30T10:20:30Z
+    check "$name has the same bytes" cmp "date_$name" "again_$name"
+    check "$name says its date" same "$(dated "date_$name")" 2026-11-30T10:20:30.000000Z
+    check "$name is right" right "date_$name"
+    check "$name without" shot in "un_$name" --codec "$codec" --raster "$raster"
+    check "$name says none" same "$(dated "un_$name" | sed '/^0000-00-00\|^-0001/d')" ""
+    check "$name is right without" right "un_$name"
+done <<'END_OF_TABLE'
+own.mxf v210 625i
+d10.mxf imx50 625i
+m.mov v210 525i
+f.mkv ffv1 625i
+END_OF_TABLE
+
 # ---- What verify tells ----
 
 ff -i d10.mxf -map 0 -c copy -fflags +bitexact -timecode 10:00:00:00 -f mxf_d10 zero.mxf

@@ -217,6 +217,8 @@ static weft_status write_header(wf_writing *w, weft_error *err) {
     if (code >= 0 && !strcmp(w->delivery->muxer, "matroska"))
         code = av_dict_set(about, "title", WF_MKV_TITLE, 0);
     if (code >= 0 && !strncmp(w->delivery->muxer, "mxf", 3)) code = name_packages(about);
+    if (code >= 0 && w->options.date)
+        code = av_dict_set(about, "creation_time", w->options.date, 0);
     if (code >= 0) code = time_movie(w, &options);
     if (code >= 0) code = avformat_write_header(w->format, &options);
     /* The muxer of QuickTime writes this at the end if it is not set after the header. */

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <cmocka.h>
 
 #include "convert/job/timecode.h"
@@ -205,6 +206,41 @@ static void other_rates(void **state) {
     }
 }
 
+/* Every day that the C library knows is one, and no other. */
+static void dates(void **state) {
+    (void)state;
+    static const char *const no[] = {"2026-02-29",
+                                     "2100-01-01",
+                                     "1969-12-31",
+                                     "2026-13-01",
+                                     "2026-00-10",
+                                     "2026-04-31",
+                                     "2026-1-1",
+                                     "2026-11-30T",
+                                     "2026-11-30T10:20:30",
+                                     "2026-11-30 10:20:30Z",
+                                     "",
+                                     "2026-11-30T24:00:00Z",
+                                     "2026-11-30T10:60:00Z",
+                                     "2026-11-30T10:20:60Z",
+                                     "2026-11-30T10:20:30Zz"};
+    for (time_t t = 0; t < (time_t)4102444800; t += 86400) { /* 2100-01-01 */
+        char text[32];
+        struct tm day;
+        wf_date d;
+        gmtime_r(&t, &day);
+        strftime(text, sizeof text, "%Y-%m-%dT23:59:07Z", &day);
+        assert_true(wf_parse_date(text, &d));
+        assert_true(d.year == 1900 + day.tm_year && d.month == 1 + day.tm_mon &&
+                    d.day == day.tm_mday && d.hours == 23 && d.minutes == 59 && d.seconds == 7);
+    }
+    for (size_t i = 0; i < LENGTH(no); i++) {
+        wf_date d = {.year = 7};
+        assert_false(wf_parse_date(no[i], &d));
+        assert_int_equal(d.year, 7);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_label_of_a_day),
@@ -213,6 +249,7 @@ int main(void) {
         cmocka_unit_test(adding),
         cmocka_unit_test(labels_that_a_rate_has_not),
         cmocka_unit_test(words),
+        cmocka_unit_test(dates),
         cmocka_unit_test(other_rates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
