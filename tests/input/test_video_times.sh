@@ -61,6 +61,27 @@ for how in "--aperture box --temporal-width 1" "--aperture rotated"; do
     check "are the same ($how)" cmp u.y4m p.y4m
 done
 
+# AVI has times of decoding only, and of H.264 often an empty chunk after each picture.
+if ffmpeg -v error -encoders | grep -q libx264; then
+    for option in "-bf 0" "-bf 2" "-bf 2 -g 1"; do
+        # shellcheck disable=SC2086
+        quiet_ffmpeg -f lavfi -i testsrc2=s=64x32:r=30000/1001:d=2.002 -c:v libx264 $option coded.mp4
+        quiet_ffmpeg -i coded.mp4 -c copy coded.avi
+        check "H.264 in AVI ($option)" exits 0 weft convert coded.avi $box --from rec709 -o u.y4m --report -
+        check "has its rate" value "d['input']['rate']['value'] == '30000/1001' and d['input']['listed'] == 60"
+        check "as in MP4" exits 0 weft convert coded.mp4 $box --from rec709 -o p.y4m
+        check "and its pictures" cmp u.y4m p.y4m
+        check "some of them" exits 0 weft convert coded.avi $box --from rec709 --frames 30-49 -o u.y4m
+        check "of MP4" exits 0 weft convert coded.mp4 $box --from rec709 --frames 30-49 -o p.y4m
+        check "are the same" cmp u.y4m p.y4m
+    done
+    quiet_ffmpeg -i coded.mp4 -vf "select='mod(n,4)'" -fps_mode vfr -c:v libx264 -bf 2 fewer.avi
+    check "pictures that AVI leaves out" exits 0 weft convert fewer.avi $box --from rec709 -o u.y4m --report -
+    check "take their time" value "d['input']['listed'] == 45 and d['frames'] in (49, 50)"
+else
+    skip_part "no libx264"
+fi
+
 # ---- Times that will not do ----
 
 # stamped FILE EXPRESSION: timestamps, in ms, of FFV1 in Matroska by a number N, patched into packets as they are.

@@ -385,10 +385,12 @@ static bool is_customary(wf_rational rate) {
 /* The rate at which frames are shown. Elementary streams have no times, and the demuxer makes
  * up 25 a second; fields that are packets of their own count twice; and where fields are
  * repeated, as in film on 60 fields, fewer frames are coded than are shown. A mean that is no
- * rate of video is one of times that were rounded. */
+ * rate of video is one of times that were rounded. AVI counts empty chunks, which H.264 often
+ * has after each picture, since its clock counts fields. */
 static wf_rational frame_rate(const reading *r) {
     const AVStream *stream = r->format->streams[r->stream];
     wf_rational average = ratio_of(stream->avg_frame_rate);
+    wf_rational between = ratio_of(stream->r_frame_rate); /* empty chunks of AVI, by times */
     wf_rational coded = ratio_of(r->codec->framerate);
     if (!wf_ratio_given(average)) average = ratio_of(stream->r_frame_rate);
     if (!wf_ratio_given(coded) || !wf_ratio_given(average)) return average;
@@ -399,7 +401,9 @@ static wf_rational frame_rate(const reading *r) {
     bool repeats =
         r->codec->codec_id == AV_CODEC_ID_MPEG2VIDEO && times > 0.79 && times < 0.999;
     bool rounded = fabs(times - 1) < 0.1 && is_customary(coded) && !is_customary(average);
-    return untimed || fields || repeats || rounded ? coded : average;
+    bool empty = !strcmp(r->format->iformat->name, "avi") && between.num > 0 &&
+                 wf_ratio_value(between) < 0.9 * wf_ratio_value(average);
+    return untimed || fields || repeats || rounded ? coded : empty ? between : average;
 }
 
 static void describe_stream(wf_video *v, wf_video_label *label) {
@@ -431,7 +435,8 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     wf_libav_timecode(v);
     AVRational tick = r->format->streams[r->stream]->time_base;
     v->info.tick_s = wf_ratio(tick.num, tick.den);
-    if (v->options.want_times) status = wf_libav_times(v, r->stream, &r->listed, err);
+    if (v->options.want_times)
+        status = wf_libav_times(v, r->stream, &r->listed, &r->by_decoding, err);
     if (!status && mends) status = wf_libav_mend_count(v, err);
     if (status) return status;
     r->code = malloc((size_t)v->info.width_px * sizeof *r->code);

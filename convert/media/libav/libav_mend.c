@@ -120,7 +120,7 @@ static int64_t place_of(const wf_video *v) {
     const wf_libav_reading *r = v->state;
     const wf_video_info *info = &v->info;
     int64_t ticks = r->frame->best_effort_timestamp, n = v->frame.index;
-    if (!info->times) return n + skipped(v, ticks);
+    if (!info->times || r->by_decoding) return n + skipped(v, ticks);
     while (n < info->frames && info->times[n] < ticks) n++;
     return n < info->frames && info->times[n] == ticks ? n : v->frame.index;
 }

@@ -22,11 +22,12 @@ typedef struct wf_libav_reading {
     int primaries, transfer, matrix, range;
     bool have; /* frame holds the next one */
     bool drained;
-    bool checked;    /* its packets have checksums */
-    int64_t packets; /* of the stream, read so far */
-    int64_t listed;  /* of the stream, in the whole file; 0: they have not been counted */
-    double end_s;    /* of the last one */
-    bool until_key;  /* packets are passed over up to the next keyframe, which is shown at: */
+    bool checked;     /* its packets have checksums */
+    int64_t packets;  /* of the stream, read so far */
+    int64_t listed;   /* of the stream, in the whole file; 0: they have not been counted */
+    bool by_decoding; /* info.times are not those that frames have */
+    double end_s;     /* of the last one */
+    bool until_key;   /* packets are passed over up to the next keyframe, which is shown at: */
     int64_t key_ticks;
     uint16_t *code;     /* [width] */
     int64_t last_ticks; /* when the last picture was shown */

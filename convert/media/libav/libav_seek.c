@@ -60,7 +60,7 @@ static weft_status begin_again(wf_video *v, weft_error *err) {
 weft_status wf_libav_seek(wf_video *v, int64_t picture, weft_error *err) {
     wf_libav_reading *r = v->state;
     const wf_video_info *info = &v->info;
-    if (v->pipe || !is_told(info, picture)) return WEFT_OK;
+    if (v->pipe || r->by_decoding || !is_told(info, picture)) return WEFT_OK;
     int64_t ticks = info->times[picture];
     for (size_t i = 0; i < sizeof before_s / sizeof *before_s; i++) {
         int64_t from = ticks - (int64_t)(before_s[i] / wf_ratio_value(info->tick_s));

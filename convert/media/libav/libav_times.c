@@ -12,6 +12,7 @@ typedef struct listing {
     int64_t packets;          /* with those that are not shown */
     int64_t last, last_ticks; /* the latest time, and how long its packet lasts */
     bool all;                 /* every packet so far had a time */
+    int64_t decoded;          /* packets that have the time of decoding alone */
     int64_t last_dts, back;   /* info.back, from the times that packets are decoded at */
 } listing;
 
@@ -53,7 +54,9 @@ static bool list_packets(AVFormatContext *format, int stream, listing *l) {
         l->packets += packet->stream_index == stream;
         if (packet->stream_index == stream && !(packet->flags & AV_PKT_FLAG_DISCARD)) {
             note_order(l, packet->dts);
-            fits = add(l, packet->pts, packet->duration);
+            bool shown = packet->pts != AV_NOPTS_VALUE;
+            l->decoded += !shown;
+            fits = add(l, shown ? packet->pts : packet->dts, packet->duration);
         }
         av_packet_unref(packet);
     }
@@ -77,7 +80,15 @@ static bool open_again(const wf_video *v, int stream, AVFormatContext **format) 
            stream < (int)(*format)->nb_streams;
 }
 
-weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, weft_error *err) {
+/* AVI has times of decoding only. Pictures are shown as far apart as these are, however they
+ * change places. */
+static bool is_complete(const listing *l, const AVFormatContext *format) {
+    bool avi = format && !strcmp(format->iformat->name, "avi");
+    return l->count && l->all && (!l->decoded || (avi && l->decoded == (int64_t)l->count));
+}
+
+weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, bool *decoded,
+                           weft_error *err) {
     AVFormatContext *format = NULL;
     listing l = {.all = true, .last_dts = AV_NOPTS_VALUE};
     bool fits = true;
@@ -86,8 +97,10 @@ weft_status wf_libav_times(wf_video *v, int stream, int64_t *packets, weft_error
         v->info.tick_s = wf_ratio(tick.num, tick.den);
         fits = list_packets(format, stream, &l);
     }
+    bool complete = fits && is_complete(&l, format);
+    *decoded = complete && l.decoded;
     avformat_close_input(&format);
-    if (fits && l.count && l.all) {
+    if (complete) {
         qsort(l.time, l.count, sizeof *l.time, by_time);
         v->info.times = l.time;
         v->info.last_ticks = l.last_ticks;
