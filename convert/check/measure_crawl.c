@@ -117,6 +117,53 @@ static void mark_changes(wf_crawl *c, int64_t n, int frames, int down_lines, boo
     }
 }
 
+/* Two lines of one field. */
+typedef struct two_lines {
+    const float *above, *below;
+} two_lines;
+
+/* Those of field k of frame n, a later one, between which line y of its first field lies when
+ * it has drifted. */
+static two_lines lines_about(const wf_crawl *c, int64_t n, int k, int y, int down) {
+    int at = (2 * y + k * down) >> 1, parity = (c->first + k) & 1;
+    int above = at - ((at ^ parity) & 1), below = above + 2;
+    above = above < 0 ? below : above;
+    below = below < c->lines ? below : above;
+    const float *light = c->light[(n + k / 2) % FRAMES];
+    return (two_lines){light + (size_t)above * (size_t)c->width_px,
+                       light + (size_t)below * (size_t)c->width_px};
+}
+
+/* How far a value is from what two lines span. */
+static float outside_of(two_lines t, size_t x, float value) {
+    float low = fminf(t.above[x], t.below[x]), high = fmaxf(t.above[x], t.below[x]);
+    return fmaxf(0, fmaxf(low - value, value - high));
+}
+
+/* Marks what the fields in between do not lead to: what has come back to its like, as a wheel's
+ * spokes do, or is the same again after something has passed, has not drifted. Where something
+ * drifts, a line of the first field is about what the lines of each other field span that pass
+ * by the same place, but for details that are no larger than a line. */
+static void mark_jumps(wf_crawl *c, int64_t n, int down, bool *marked) {
+    const float most = 0.6f, same = 0.01f; /* of what all lines span; of white */
+    size_t width = (size_t)c->width_px;
+    for (int y = 2 + c->first; y < c->lines - 2; y += 2) {
+        const float *own = c->light[n % FRAMES] + (size_t)y * width;
+        two_lines field[FIELDS];
+        for (int k = 1; k < FIELDS; k++) field[k] = lines_about(c, n, k, y, down);
+        for (size_t x = 0; x < width; x++) {
+            float low = own[x], high = own[x], farthest = 0;
+            for (int k = 1; k < FIELDS; k++) {
+                low = fminf(low, fminf(field[k].above[x], field[k].below[x]));
+                high = fmaxf(high, fmaxf(field[k].above[x], field[k].below[x]));
+                farthest = fmaxf(farthest, outside_of(field[k], x, own[x]));
+            }
+            c->same[x] = farthest <= same + most * (high - low);
+        }
+        mark_about(c, y, marked);
+    }
+}
+
 /* Line y of a field, y in half lines: between two lines their mean. */
 static float at_half_line(const wf_crawl *c, const float *field, int half_y, int x) {
     int most = c->lines - 1, y = half_y >> 1, next = y + (half_y & 1);
@@ -164,6 +211,7 @@ static void clear_line(wf_crawl *c, int64_t n, int half_y) {
 static bool count_direction(wf_crawl *c, int64_t n, int down) {
     bool any = false;
     mark_changes(c, n, 2, down * DRIFT_LINES, c->strays);
+    mark_jumps(c, n, down, c->strays);
     for (size_t i = 0; i < c->samples; i++) {
         c->counted[i] |= !c->strays[i];
         any |= c->moves[i] && !c->strays[i];

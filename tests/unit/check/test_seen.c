@@ -281,6 +281,14 @@ static void edges_that_drift(void **state) {
     }
 }
 
+/* Bars that move across, and are where their like was after as many fields as user says. */
+static double passing(const void *user, int frame, double x, double y) {
+    const int *fields = user;
+    int field = 2 * frame + (int)y % 2;
+    double across = fmod(x + 16.0 * field / *fields, 16);
+    return y > 40 && y < 80 && across < 5 ? 0.9 : 0.2;
+}
+
 /* Edges that stand still or move otherwise do not count, and nor does a wrong order. */
 static void other_edges(void **state) {
     (void)state;
@@ -288,6 +296,8 @@ static void other_edges(void **state) {
     const wf_measure_options o = {.chart = 0};
     assert_true(measured("40x120@30i,tff", 5, drifting, &still, o).crawl_p999 < 1e-6);
     assert_true(measured("40x120@30i,tff", 5, drifting, &fast, o).crawl_p999 < 1e-6);
+    for (int fields = 2; fields < 5; fields++)
+        assert_true(measured("40x120@30i,tff", 5, passing, &fields, o).crawl_p999 < 1e-6);
     double crawl = measured("40x120@30i,tff", 5, drifting, &right, o).crawl_p999;
     double wrong = measured("40x120@30i,bff", 5, drifting, &right, o).crawl_p999;
     assert_true(crawl > 0.02 && wrong != crawl);
