@@ -27,7 +27,9 @@ typedef struct finisher {
 struct wf_frames {
     wf_crew *crew;
     const wf_setup *setup;
-    const wf_raster *raster;
+    const wf_raster *raster; /* as it is written */
+    wf_nearest *flicker;     /* NULL: it is not held */
+    int64_t field;           /* whose lines are taken from there */
     wf_outputs outputs;
     slot *slots; /* frame n is in slots[n % count] */
     int count;
@@ -77,10 +79,12 @@ static int slots_for(const weft_job *job, int fields) {
     return (fields + per_frame - 1) / per_frame + 2;
 }
 
-size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int fields) {
+size_t wf_frames_bytes(const weft_job *job, const wf_setup *s, int threads, int fields) {
     size_t bytes = key_bytes(job, s);
     for (int c = 0; c < planes_of(s); c++) bytes += plane_bytes(job, s, c);
-    return bytes * (size_t)slots_for(job, fields);
+    wf_nearest_desc flicker = s->flicker;
+    flicker.fields = fields;
+    return bytes * (size_t)slots_for(job, fields) + wf_nearest_bytes(&flicker, threads);
 }
 
 static bool make_planes(wf_frames *f) {
@@ -117,12 +121,20 @@ weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_f
                           weft_error *err) {
     wf_frames *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for frames");
-    *f = (wf_frames){.crew = crew, .setup = setup, .raster = &crew->job->raster};
+    *f = (wf_frames){.crew = crew, .setup = setup, .raster = &setup->raster};
     f->count = slots_for(crew->job, fields);
     f->planes = planes_of(setup);
     if (!make_planes(f) || !make_finishers(f)) {
         wf_frames_free(f);
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
+    }
+    wf_nearest_desc flicker = setup->flicker;
+    flicker.fields = fields;
+    weft_status status =
+        flicker.held ? wf_nearest_new(crew, &flicker, &f->flicker, err) : WEFT_OK;
+    if (status) {
+        wf_frames_free(f);
+        return status;
     }
     *out = f;
     return WEFT_OK;
@@ -132,6 +144,7 @@ void wf_frames_free(wf_frames *f) {
     if (!f) return;
     wf_aside_end(&f->writing, NULL);
     wf_outputs_close(f->setup, &f->outputs);
+    wf_nearest_free(f->flicker);
     for (int n = 0; f->slots && n < f->count; n++) {
         for (int c = 0; c < 4; c++) free(f->slots[n].plane[c]);
         free(f->slots[n].key);
@@ -161,19 +174,35 @@ static void *frame_line(const wf_frames *f, int64_t field, int c, int line) {
     return (char *)frame->plane[c] + at * sample_bytes(f->setup);
 }
 
+static float *worker_line(const wf_frames *f, const wf_worker *worker, int c) {
+    return f->finishers[worker->number].line + (size_t)c * (size_t)f->raster->width_px;
+}
+
 /* Light that is written as it is goes into its frame at once. */
+static void place(const wf_frames *f, const wf_worker *worker, int64_t field, int line,
+                  float *rgb[3]) {
+    for (int c = 0; c < 3; c++)
+        rgb[c] =
+            is_linear(f->setup) ? frame_line(f, field, c, line) : worker_line(f, worker, c);
+}
+
+static float *place_alpha(const wf_frames *f, const wf_worker *worker, int64_t field,
+                          int line) {
+    if (!wf_job_writes_alpha(f->crew->job)) return NULL;
+    if (is_linear(f->setup) && f->planes > ALPHA) return frame_line(f, field, ALPHA, line);
+    return worker_line(f, worker, ALPHA);
+}
+
+/* Where flicker is held, all lines of the frame come first. */
 void wf_frames_place(const wf_frames *f, const wf_worker *worker, int64_t field, int line,
                      float *rgb[3]) {
-    float *own = f->finishers[worker->number].line;
-    for (int c = 0; c < 3; c++)
-        rgb[c] = is_linear(f->setup) ? frame_line(f, field, c, line)
-                                     : own + (size_t)c * (size_t)f->raster->width_px;
+    if (!f->flicker) place(f, worker, field, line, rgb);
+    for (int c = 0; f->flicker && c < 3; c++) rgb[c] = worker_line(f, worker, c);
 }
 
 float *wf_frames_alpha(const wf_frames *f, const wf_worker *worker, int64_t field, int line) {
-    if (!wf_job_writes_alpha(f->crew->job)) return NULL;
-    if (is_linear(f->setup) && f->planes > ALPHA) return frame_line(f, field, ALPHA, line);
-    return f->finishers[worker->number].line + (size_t)ALPHA * (size_t)f->raster->width_px;
+    if (!f->flicker) return place_alpha(f, worker, field, line);
+    return wf_job_writes_alpha(f->crew->job) ? worker_line(f, worker, ALPHA) : NULL;
 }
 
 /* R'G'B' to codes: chroma, legal colors and quantizing. */
@@ -230,23 +259,60 @@ static void finish_alpha(wf_frames *f, int64_t field, int line, float *const rgb
     for (size_t x = 0; x < width; x++) code[x] = (uint16_t)lrintf(rgba[ALPHA][x] * (float)most);
 }
 
-void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
+/* Light to what is written of it, before codes. */
+static void color_line(const wf_frames *f, float *const rgb[3], const float *alpha) {
     const wf_transform *transform = &f->setup->transform;
-    float *rgb[3];
-    double start = wf_now_s();
-    wf_frames_place(f, worker, field, line, rgb);
     size_t width = (size_t)f->raster->width_px;
-    float *alpha = wf_frames_alpha(f, worker, field, line);
     bool divided = f->setup->output_options.straight && f->setup->key_law == WF_KEY_LIGHT;
     if (alpha && divided) divide_by_alpha(rgb, alpha, width);
-    if (transform->apply) {
-        transform->apply(transform->self, rgb[0], rgb[1], rgb[2], width);
-        clip_below(f->setup, rgb, width);
-    }
+    if (!transform->apply) return;
+    transform->apply(transform->self, rgb[0], rgb[1], rgb[2], width);
+    clip_below(f->setup, rgb, width);
+}
+
+static void code_line(wf_frames *f, const wf_worker *worker, int64_t field, int line,
+                      float *const rgb[3], float *alpha) {
+    size_t width = (size_t)f->raster->width_px;
     if (alpha) finish_alpha(f, field, line, (float *[]){rgb[0], rgb[1], rgb[2], alpha}, width);
     if (alpha) put_key(f, field, line, alpha);
     if (!is_linear(f->setup)) encode(f, worker, field, line, rgb);
+}
+
+void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
+    float *rgb[3];
+    double start = wf_now_s();
+    wf_frames_place(f, worker, field, line, rgb);
+    float *alpha = wf_frames_alpha(f, worker, field, line);
+    if (!alpha || !f->flicker) color_line(f, rgb, alpha);
+    if (f->flicker)
+        wf_nearest_put(f->flicker, field, line, rgb, alpha);
+    else
+        code_line(f, worker, field, line, rgb, alpha);
     worker->color_s += wf_now_s() - start;
+}
+
+/* Line `line` of the nearest picture's own. With alpha it is light, which has its colors to
+ * come. */
+static void take_line(void *user, wf_worker *worker, int line) {
+    wf_frames *f = user;
+    float *rgb[3];
+    double start = wf_now_s();
+    place(f, worker, f->field, line, rgb);
+    float *alpha = place_alpha(f, worker, f->field, line);
+    wf_nearest_take(f->flicker, worker, f->field, line_in_frame(f, f->field, line), rgb, alpha);
+    if (alpha) color_line(f, rgb, alpha);
+    code_line(f, worker, f->field, line, rgb, alpha);
+    worker->color_s += wf_now_s() - start;
+}
+
+weft_status wf_frames_field(wf_frames *f, int64_t field, weft_error *err) {
+    if (!f->flicker) return WEFT_OK;
+    weft_status status = wf_nearest_solve(f->flicker, field, err);
+    if (status) return status;
+    f->field = field;
+    wf_crew_each(f->crew, wf_raster_field_lines(f->raster, wf_raster_parity(f->raster, field)),
+                 4, take_line, f);
+    return wf_crew_status(f->crew, err);
 }
 
 /* ---- Frames ---- */
@@ -316,6 +382,7 @@ void wf_frames_tell(wf_frames *f, wf_report *report) {
     report->legal.counts = f->legal;
     report->legal.worst_share = (double)f->worst_outside / pixels;
     tell_alpha(f, pixels, report);
+    if (f->flicker) wf_nearest_tell(f->flicker, report);
 }
 
 /* ---- Which frames ---- */

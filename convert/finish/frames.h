@@ -15,17 +15,21 @@ typedef struct wf_frames wf_frames;
 weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_frames **out,
                           weft_error *err);
 void wf_frames_free(wf_frames *frames); /* abandons the sink if it is still open */
-size_t wf_frames_bytes(const weft_job *job, const wf_setup *setup, int fields);
+size_t wf_frames_bytes(const weft_job *job, const wf_setup *setup, int threads, int fields);
 
-/* Where a worker is to put line `line` of a field: R, G, B of width_px scene-linear samples.
- * Then wf_frames_line takes what it has put there through color into the field's frame. A
- * worker has one line in hand at a time. */
+/* Where a worker is to put line `line` of a field, as the job's raster counts its lines: R, G,
+ * B of width_px scene-linear samples. Then wf_frames_line takes what it has put there through
+ * color into the field's frame. A worker has one line in hand at a time. */
 void wf_frames_place(const wf_frames *frames, const wf_worker *worker, int64_t field, int line,
                      float *rgb[3]);
 /* The same for its alpha: width_px samples; NULL where none is written. */
 float *wf_frames_alpha(const wf_frames *frames, const wf_worker *worker, int64_t field,
                        int line);
 void wf_frames_line(wf_frames *frames, wf_worker *worker, int64_t field, int line);
+
+/* All lines of a field are there: where flicker is held, they are those of its frame, and the
+ * field's own are made of them now. By one thread, field by field. */
+weft_status wf_frames_field(wf_frames *frames, int64_t field, weft_error *err);
 
 /* Opens the sink; hands it frame `index`, whose lines are all there, and tells progress: it is
  * written while later frames are made, and the next call tells if that failed; closes

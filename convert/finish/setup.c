@@ -242,6 +242,7 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     if (!status) status = check_alpha(job, kind, err);
     if (status) return status;
     s->raster = job->raster;
+    s->raster.all_lines = false;
     s->output_options = describe_sink(job, s, kind, bits, full);
     describe_codes(job, s, bits, full);
     if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);
@@ -288,6 +289,7 @@ weft_status wf_setup_output(const weft_job *job, wf_setup *s, weft_error *err) {
     if (!status) status = wf_setup_color(job, s, err);
     if (!status) status = settle_law(job, s, err);
     settle_matrix(s);
+    if (!status) wf_setup_flicker(job, s);
     return status ? status : wf_setup_display(job, s, err);
 }
 

@@ -4,6 +4,7 @@
 #include "color/codes/encode.h"
 #include "color/codes/key_law.h"
 #include "color/space/transform.h"
+#include "convert/finish/nearest.h"
 #include "convert/job/job.h"
 #include "convert/job/report.h"
 #include "convert/job/timecode.h"
@@ -41,6 +42,7 @@ typedef struct wf_setup {
     wf_transform transform;          /* apply is NULL where colors are left alone */
     wf_key_law key_law;              /* where alpha is written */
     wf_encoding encoding;            /* where codes are written */
+    wf_nearest_desc flicker;         /* where it is held; but for fields */
     wf_display *display;             /* the encoding's, for luma-adjust; else NULL */
 } wf_setup;
 
@@ -94,6 +96,12 @@ weft_status wf_setup_color(const weft_job *job, wf_setup *setup, weft_error *err
 
 /* Names the raster's own colors as the output's. */
 void wf_setup_color_of_raster(const weft_job *job, wf_setup *setup);
+
+/* Settles how flicker is held, and of what light, once colors are settled. (setup_flicker.c) */
+void wf_setup_flicker(const weft_job *job, wf_setup *setup);
+
+/* The same of fields of scene-linear light that nothing is written of; raster is borrowed. */
+wf_nearest_desc wf_setup_flicker_of_light(const weft_job *job, const wf_raster *raster);
 
 /* Makes the display of the output's colors, where luma-adjust looks at one. */
 weft_status wf_setup_display(const weft_job *job, wf_setup *setup, weft_error *err);

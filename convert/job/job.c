@@ -119,8 +119,17 @@ static weft_status check_cadence(const weft_job *job, weft_error *err) {
                    job->raster.name);
 }
 
+/* The nearest picture is near to the sharpest one, unless another is named. */
+static void settle_aperture(weft_job *job) {
+    char why[256];
+    const char *name = wf_job_holds_flicker(job) ? "line" : "shaped";
+    if (!job->aperture_given) wf_aperture_parse(name, &job->aperture, why, sizeof why);
+}
+
 void wf_job_settle(weft_job *job) {
+    settle_aperture(job);
     job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
+    job->raster.all_lines = wf_job_holds_flicker(job);
 }
 
 typedef struct rule {
@@ -165,6 +174,36 @@ weft_status wf_job_check_time(const weft_job *job, weft_error *err) {
     return check_cadence(job, err);
 }
 
+double wf_job_flicker_weight(const weft_job *job) {
+    if (job->aperture.kind && job->aperture.kind->nearest) return job->aperture.parameter[0];
+    return wf_ratio_given(job->flicker_weight) ? wf_ratio_value(job->flicker_weight) : 0;
+}
+
+bool wf_job_holds_flicker(const weft_job *job) {
+    return wf_job_flicker_weight(job) > 0 || wf_ratio_given(job->flicker_limit);
+}
+
+weft_status wf_job_check_flicker(const weft_job *job, weft_error *err) {
+    bool limited = wf_ratio_given(job->flicker_limit), nearest = job->aperture.kind->nearest;
+    if (wf_job_holds_flicker(job) && job->raster.scan == WF_PROGRESSIVE)
+        return wf_fail(err, WEFT_USAGE,
+                       "%s: interline flicker is between the two fields of a frame, and %s is "
+                       "progressive; take an interlaced raster, or leave it out",
+                       nearest   ? "--aperture least"
+                       : limited ? "--flicker-limit"
+                                 : "--flicker-weight",
+                       job->raster.name);
+    const rule rules[] = {
+        {nearest && job->flicker_weight.num,
+         "--aperture least:MU is line with --flicker-weight MU; give one of them"},
+        {limited && wf_job_writes_alpha(job),
+         "--flicker-limit bounds the light of a whole picture, and beside alpha it is not "
+         "known "
+         "what lies behind; with --alpha-out and --key give --flicker-weight"},
+    };
+    return check_rules(rules, sizeof rules / sizeof *rules, err);
+}
+
 weft_status wf_job_check(const weft_job *job, weft_error *err) {
     const rule rules[] = {
         {!job->input_count && job->command != WF_CONVERT,
@@ -196,6 +235,7 @@ weft_status wf_job_check(const weft_job *job, weft_error *err) {
     };
     weft_status status = check_rules(rules, sizeof rules / sizeof *rules, err);
     if (!status) status = wf_job_check_alpha(job, err);
+    if (!status) status = wf_job_check_flicker(job, err);
     if (!status) status = wf_job_check_time(job, err);
     return status ? status : check_timecode(job, err);
 }

@@ -20,6 +20,9 @@ struct weft_job {
 
     wf_raster raster;
     wf_aperture aperture;          /* its width is the option's if one was given */
+    bool aperture_given;           /* else it is the preset (wf_job_settle) */
+    wf_rational flicker_weight;    /* {0, 1}: it weighs nothing */
+    wf_rational flicker_limit;     /* {0,0}: none */
     wf_rational temporal_width;    /* field periods; {0,0}: the aperture's */
     bool width_given, angle_given; /* which of the two options that set it were */
     wf_position shutter_position;
@@ -116,8 +119,18 @@ weft_status wf_job_check_alpha(const weft_job *job, weft_error *err);
 /* The same of the options that say when fields look alone: width and cadence. */
 weft_status wf_job_check_time(const weft_job *job, weft_error *err);
 
-/* Settles what depends on several options, in a job that wf_job_check passes: the raster takes
- * on the cadence. */
+/* How much flicker weighs, by its option or by the aperture; 0: nothing. */
+double wf_job_flicker_weight(const weft_job *job);
+
+/* Whether flicker is weighed or bounded. */
+bool wf_job_holds_flicker(const weft_job *job);
+
+/* The same of the options of flicker alone. */
+weft_status wf_job_check_flicker(const weft_job *job, weft_error *err);
+
+/* Settles what depends on several options, in a job that wf_job_check passes: an aperture that
+ * is not named is shaped, or line where flicker is held, the raster takes on the cadence, and
+ * fields all lines where flicker is held. */
 void wf_job_settle(weft_job *job);
 
 #endif

@@ -10,6 +10,7 @@ weft_job *weft_job_new(void) {
         weft_job_free(job);
         return NULL;
     }
+    if (job) wf_job_settle(job);
     return job;
 }
 

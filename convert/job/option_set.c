@@ -199,7 +199,10 @@ weft_status wf_set_raster(weft_job *job, const wf_option_row *row, const char *v
 weft_status wf_set_aperture(weft_job *job, const wf_option_row *row, const char *value,
                             weft_error *err) {
     char why[512];
-    if (wf_aperture_parse(value, &job->aperture, why, sizeof why)) return WEFT_OK;
+    if (wf_aperture_parse(value, &job->aperture, why, sizeof why)) {
+        job->aperture_given = true;
+        return WEFT_OK;
+    }
     const char *meant = wf_meant_by("aperture", value);
     if (meant)
         return wf_fail(err, WEFT_USAGE,

@@ -37,10 +37,18 @@ static const wf_option_row rows[] = {
     ROW(shape, JOBS | FILTERS | PLAN, "raster", "NAME", "525i",
         "What to make: a name that 'weft rasters' lists, or WxH@RATE(i|p|psf).", set_raster,
         AT(raster), INITIAL),
-    ROW(shape, JOBS | PLAN, "aperture", "NAME", "shaped",
+    ROW(shape, JOBS | PLAN, "aperture", "NAME", "shaped; line where flicker is held",
         "How a pixel looks at the picture: one of those that 'weft filters' lists, or "
         "design:KEY=VALUE,.. to have one made ('weft filters --help').",
-        set_aperture, AT(aperture), INITIAL),
+        set_aperture, AT(aperture)),
+    ROW(shape, JOBS, "flicker-weight", "MU", "0",
+        "How much interline flicker weighs against sharpness: of f cycles a line 1 / (1 + MU "
+        "sin^4(pi f)) is left of what the aperture shows, line unless another is named.",
+        set_ratio, AT(flicker_weight), FROM(0, 1e6, ", such as 4"), INITIAL),
+    ROW(shape, JOBS, "flicker-limit", "E", NULL,
+        "How much light may flicker between lines at most, 1 being white: the nearest picture "
+        "that holds it is made, sharp wherever it does so already.",
+        set_ratio, AT(flicker_limit), FROM(0.0005, 100, ", such as 0.02")),
     ROW(shape, CONVERT, "fit", "stretch|crop|pad", "stretch",
         "What to do with an input of another shape: stretch it, or scale it evenly and crop or "
         "pad.",

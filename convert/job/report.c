@@ -1,6 +1,7 @@
 /* The report of a run as JSON; its keys are in convert/README.md. */
 #include "convert/job/report.h"
 
+#include <math.h>
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -81,6 +82,17 @@ static void add_alpha(wf_json *json, const wf_report *report) {
     wf_json_close(json);
 }
 
+static void add_flicker(wf_json *json, const wf_report_flicker *flicker) {
+    wf_json_open(json, "flicker", '{');
+    if (flicker->held) {
+        wf_json_real(json, "weight", flicker->weight);
+        wf_json_real(json, "limit", flicker->limit > 0 ? flicker->limit : NAN);
+        wf_json_int(json, "clipped", flicker->clipped);
+        wf_json_int(json, "columns_solved", flicker->columns_solved);
+    }
+    wf_json_close(json);
+}
+
 static void add_legal(wf_json *json, const wf_report_legal *legal) {
     wf_json_open(json, "legal", '{');
     if (legal->legalize) {
@@ -135,6 +147,7 @@ char *wf_report_json(const wf_report *report) {
     add_tracer(&json, report);
     add_legal(&json, &report->legal);
     add_alpha(&json, report);
+    add_flicker(&json, &report->flicker);
     add_seconds(&json, report);
     wf_json_int(&json, "peak_memory_bytes", peak ? peak : wf_peak_memory_bytes());
     wf_json_bool(&json, "degraded", report->degraded);

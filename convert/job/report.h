@@ -20,6 +20,14 @@ typedef struct wf_report_legal {
     double worst_share;     /* of a frame, left outside: the most of all frames */
 } wf_report_legal;
 
+/* How flicker was held. */
+typedef struct wf_report_flicker {
+    bool held;            /* false: it was not, and "flicker" is {} */
+    double weight, limit; /* limit 0: none */
+    int64_t clipped; /* pixels of all lines of fields whose light was brought to its range */
+    int64_t columns_solved; /* of fields, that did not hold the limit as they were */
+} wf_report_flicker;
+
 /* What a run has to tell (convert/README.md, Reports). Everything is borrowed; NULL, 0 and {0}
  * mean "not known" or "none" and are safe in every member. */
 typedef struct wf_report {
@@ -39,6 +47,7 @@ typedef struct wf_report {
     double error_estimate; /* RMS, display-encoded; 0: none was made */
 
     wf_report_legal legal;
+    wf_report_flicker flicker;
     const char *key;            /* the kind of output that is the key; NULL: none is */
     const char *fill, *key_law; /* of alpha that is written; NULL: none is */
     double fill_clipped_share;  /* of pixels whose straight fill was above 1 */
@@ -47,8 +56,8 @@ typedef struct wf_report {
     double trace_s; /* summed over threads, as all of these but wall_s are */
     double wall_s, decode_s, resample_s, color_s, write_s;
     int64_t peak_memory_bytes; /* 0: wf_peak_memory_bytes() is asked */
-    bool degraded;             /* frames were held, NaN and Inf replaced, an error not reached */
-    const char *error;         /* why the run failed; NULL: it did not */
+    bool degraded;     /* frames were held, NaN and Inf replaced, an error not reached */
+    const char *error; /* why the run failed; NULL: it did not */
 } wf_report;
 
 /* The report as one JSON object of several lines, newline at its end. Owned by the caller,

@@ -24,6 +24,8 @@ struct weft_fields {
     float *rgb;         /* [lines][width][3] of a field */
     float *alpha;       /* [lines][width]; NULL: it is not gathered */
     float *line;        /* [3][width] */
+    wf_raster raster;   /* the job's, whose fields have lines of their own */
+    wf_nearest *flicker; /* of light that is handed over; NULL: it is not held */
 };
 
 /* ---- Life ---- */
@@ -36,6 +38,13 @@ static weft_status open_output(weft_fields *f, int64_t frames, weft_error *err) 
     wf_setup_tell_frames(&f->setup);
     status = wf_frames_new(&f->crew, &f->setup, 2, &f->frames, err);
     return status ? status : wf_frames_open(f->frames, err);
+}
+
+/* Of light, for whoever is handed fields; what is written has its own. */
+static weft_status hold_flicker(weft_fields *f, weft_error *err) {
+    wf_nearest_desc desc = wf_setup_flicker_of_light(f->job, &f->raster);
+    desc.fields = 1;
+    return desc.held && f->fn ? wf_nearest_new(&f->crew, &desc, &f->flicker, err) : WEFT_OK;
 }
 
 static weft_status make_buffers(weft_fields *f, weft_error *err) {
@@ -61,14 +70,19 @@ weft_status weft_fields_new(weft_job *job, int64_t frames, weft_field_fn *fn, vo
     if (job->dry_run)
         return wf_fail(err, WEFT_USAGE, "--dry-run is for weft_job_run: samples are pushed");
     weft_status status = wf_job_check_alpha(job, err);
+    if (!status) status = wf_job_check_flicker(job, err);
     if (status) return status;
+    wf_job_settle(job);
     weft_fields *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for fields");
     *f = (weft_fields){.job = job, .fn = fn, .user = user};
     f->desc = wf_setup_gather(job);
+    f->raster = job->raster;
+    f->raster.all_lines = false;
     f->end = frames * wf_raster_fields_per_frame(&job->raster);
     status = wf_crew_new(job, 1, &f->crew, err);
     if (!status) status = make_buffers(f, err);
+    if (!status) status = hold_flicker(f, err);
     if (!status) status = open_output(f, frames, err);
     if (status) {
         weft_fields_free(f);
@@ -82,6 +96,7 @@ void weft_fields_free(weft_fields *f) {
     if (!f) return;
     for (int64_t n = 0; f->gather && n < f->end; n++) wf_gather_free(f->gather[n]);
     wf_frames_free(f->frames);
+    wf_nearest_free(f->flicker);
     wf_setup_free(&f->setup);
     wf_crew_free(&f->crew);
     free(f->gather);
@@ -210,25 +225,40 @@ weft_status weft_fields_push_tile(weft_fields *f, const weft_tile *tile, weft_er
 
 /* ---- Fields ---- */
 
-/* Keeps a line for whoever is handed the field, and takes it through color into its frame. */
-static void keep_line(const weft_fields *f, int64_t field, int line) {
+/* Where alpha of a line is gathered; where flicker is held, [lines of the frame][width]. */
+static float *alpha_line(const weft_fields *f, int line) {
+    return f->alpha ? f->alpha + (size_t)line * (size_t)f->job->raster.width_px : NULL;
+}
+
+/* A line for whoever is handed the field. */
+static void keep_line(const weft_fields *f, int line) {
     int width = f->job->raster.width_px;
-    float *out = f->rgb + 3 * (size_t)line * (size_t)width, *rgb[3];
+    float *out = f->rgb + 3 * (size_t)line * (size_t)width;
     for (int i = 0; i < width; i++)
         for (int c = 0; c < 3; c++) out[3 * i + c] = f->line[c * width + i];
+}
+
+/* Takes a line through color into its frame. */
+static void write_line(const weft_fields *f, int64_t field, int line) {
+    size_t width = (size_t)f->job->raster.width_px;
+    float *rgb[3];
     if (!f->frames) return;
     wf_frames_place(f->frames, f->crew.workers, field, line, rgb);
-    for (int c = 0; c < 3; c++)
-        memcpy(rgb[c], f->line + c * width, (size_t)width * sizeof(float));
+    for (size_t c = 0; c < 3; c++) memcpy(rgb[c], f->line + c * width, width * sizeof(float));
     float *alpha = wf_frames_alpha(f->frames, f->crew.workers, field, line);
-    if (alpha) memcpy(alpha, f->alpha + line * width, (size_t)width * sizeof *alpha);
+    if (alpha) memcpy(alpha, alpha_line(f, line), width * sizeof *alpha);
     wf_frames_line(f->frames, f->crew.workers, field, line);
 }
 
-static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) {
+static void line_planes(const weft_fields *f, float *rgb[3]) {
     size_t width = (size_t)f->job->raster.width_px;
-    float *const rgb[3] = {f->line, f->line + width, f->line + 2 * width};
+    for (size_t c = 0; c < 3; c++) rgb[c] = f->line + c * width;
+}
+
+static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) {
+    float *rgb[3];
     weft_status status = WEFT_OK;
+    line_planes(f, rgb);
     for (int l = 0; !status && l < lines_of(f, field); l++) {
         const wf_gathered_line line = {.job = f->job,
                                        .gather = f->gather[field],
@@ -236,28 +266,54 @@ static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) 
                                        .line = l,
                                        .called = l,
                                        .remedy = "set on-empty to nearest",
-                                       .alpha = f->alpha ? f->alpha + (size_t)l * width : NULL};
+                                       .alpha = alpha_line(f, l)};
         status = wf_gathered_finish(&line, rgb, &f->filled, err);
-        if (!status) keep_line(f, field, l);
+        if (status) return status;
+        write_line(f, field, l);
+        if (f->flicker)
+            wf_nearest_put(f->flicker, field, l, rgb, alpha_line(f, l));
+        else
+            keep_line(f, l);
+    }
+    return f->frames ? wf_frames_field(f->frames, field, err) : WEFT_OK;
+}
+
+/* The field's own lines of the nearest picture, for whoever is handed it. */
+static weft_status take_nearest(weft_fields *f, int64_t field, weft_error *err) {
+    float *rgb[3];
+    int parity = wf_raster_parity(&f->raster, field), step = wf_raster_line_step(&f->raster);
+    weft_status status = wf_nearest_solve(f->flicker, field, err);
+    line_planes(f, rgb);
+    for (int l = 0; !status && l < wf_raster_field_lines(&f->raster, parity); l++) {
+        wf_nearest_take(f->flicker, f->crew.workers, field, parity + l * step, rgb,
+                        alpha_line(f, l));
+        keep_line(f, l);
     }
     return status;
 }
 
-static weft_status finish_field(weft_fields *f, weft_error *err) {
-    const wf_raster *r = &f->job->raster;
+static void hand_over(const weft_fields *f) {
+    const wf_raster *r = &f->raster;
     int64_t n = f->next;
-    int per_frame = wf_raster_fields_per_frame(r);
+    int parity = wf_raster_parity(r, n);
+    const weft_field field = {.index = n,
+                              .first_line = parity,
+                              .line_step = wf_raster_line_step(r),
+                              .lines = wf_raster_field_lines(r, parity),
+                              .width_px = r->width_px,
+                              .rgb = f->rgb,
+                              .alpha = f->alpha};
+    f->fn(&field, f->user);
+}
+
+static weft_status finish_field(weft_fields *f, weft_error *err) {
+    int64_t n = f->next;
+    int per_frame = wf_raster_fields_per_frame(&f->raster);
     weft_status status = begin_field(f, n, err);
     if (!status) status = finish_lines(f, n, err);
+    if (!status && f->flicker) status = take_nearest(f, n, err);
     if (status) return status;
-    const weft_field field = {n,
-                              wf_raster_parity(r, n),
-                              wf_raster_line_step(r),
-                              lines_of(f, n),
-                              r->width_px,
-                              f->rgb,
-                              f->alpha};
-    if (f->fn) f->fn(&field, f->user);
+    if (f->fn) hand_over(f);
     wf_gather_free(f->gather[n]);
     f->gather[n] = NULL;
     f->in_hand--;

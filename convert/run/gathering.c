@@ -49,7 +49,7 @@ static size_t needed_bytes(const wf_run *run, const wf_gathering *g) {
     size_t band = wf_gather_bytes(&g->desc, WF_GATHER_ROWS + 4);
     return (size_t)g->flight_most * field_bytes(run, g) +
            (size_t)run->crew.threads * (size_t)g->flight_most * band +
-           wf_frames_bytes(run->job, &run->setup, g->flight_most);
+           wf_frames_bytes(run->job, &run->setup, run->crew.threads, g->flight_most);
 }
 
 static weft_status check_memory(wf_run *run, const wf_gathering *g, weft_error *err) {
@@ -178,7 +178,19 @@ static void let_go(const wf_run *run, wf_gathering *g) {
     memmove(g->flight, g->flight + 1, (size_t)g->flight_count * sizeof *g->flight);
 }
 
+/* The first field may look as one that was finished since its own units were added. */
+static void take_kept(const wf_run *run, wf_gathering *g) {
+    wf_gathered *first = &g->flight[0];
+    wf_gather *kept = g->kept[wf_raster_parity(&run->job->raster, g->flight_first)];
+    if (!first->follows || first->kept || !kept) return;
+    wf_gather_free(first->sums);
+    first->sums = kept;
+    first->kept = true;
+    g->fields_reused++;
+}
+
 static weft_status finish(wf_run *run, int64_t field, weft_error *err) {
+    take_kept(run, run->sums);
     wf_crew_each(&run->crew, lines_of(run, field), 4, finish_line, run);
     let_go(run, run->sums);
     return wf_crew_status(&run->crew, err);

@@ -65,10 +65,11 @@ static int most_in_flight(const wf_run *run) {
 static weft_status check_memory(wf_run *run, const wf_pictures *p, weft_error *err) {
     const wf_resampler *rs = p->resampler;
     size_t allowed = run->job->max_memory_bytes;
-    size_t bytes = (size_t)run->pace.fields_together * wf_resampler_field_bytes(rs, false) +
-                   (size_t)run->pace.fields_carried * wf_resampler_field_bytes(rs, true) +
-                   (size_t)run->crew.threads * wf_scratch_bytes(rs, most_in_flight(run)) +
-                   wf_frames_bytes(run->job, &run->setup, run->pace.fields_together);
+    size_t bytes =
+        (size_t)run->pace.fields_together * wf_resampler_field_bytes(rs, false) +
+        (size_t)run->pace.fields_carried * wf_resampler_field_bytes(rs, true) +
+        (size_t)run->crew.threads * wf_scratch_bytes(rs, most_in_flight(run)) +
+        wf_frames_bytes(run->job, &run->setup, run->crew.threads, run->pace.fields_together);
     run->pace.memory_bytes = bytes;
     if (bytes <= allowed) return WEFT_OK;
     return wf_fail(

@@ -53,6 +53,7 @@ static weft_status finish(wf_run *run, int64_t first, int64_t end, weft_error *e
     weft_status status = WEFT_OK;
     for (int64_t n = first; !status && n < end; n++) {
         status = run->kind->summing->finish(run, n, err);
+        if (!status) status = wf_frames_field(run->frames, n, err);
         if (!status && n % per_frame == per_frame - 1)
             status = wf_frames_write(run->frames, n / per_frame, err);
     }

@@ -156,6 +156,13 @@ static double line_response(const wf_aperture *a, double tau, double fx, double 
     return wf_sinc(fx) * wf_sinc(fy) * wf_sinc(tau * ft);
 }
 
+/* filters/least: lines' weights are those of `line`, and what follows is linear. */
+static double least_response(const wf_aperture *a, double tau, double fx, double fy,
+                             double ft) {
+    double s = sin(M_PI * fy), flicker = s * s * s * s;
+    return line_response(a, tau, fx, fy, ft) / (1 + a->parameter[0] * flicker);
+}
+
 static double box_response(const wf_aperture *a, double tau, double fx, double fy, double ft) {
     (void)a;
     return wf_sinc(fx) * wf_sinc(2 * fy) * wf_sinc(tau * ft);
@@ -304,10 +311,27 @@ static const wf_aperture_kind kinds[] = {
      .follows = "B,C",
      .example = "0.333,0.333",
      .parameters = 2,
+     .low = -10,
+     .high = 10,
      .cell_uv = separable_cell_uv,
      .cell_v = mitchell_cell_v,
      .response = mitchell_response,
      .profile = WF_PROFILE_MITCHELL},
+    {.name = "least",
+     .shape = "line, then the nearest picture whose flicker weighs MU",
+     .paper = "",
+     .default_width = {1, 2},
+     .reach_u = 0.5,
+     .reach_v = 0.5,
+     .follows = "MU",
+     .example = "4",
+     .parameters = 1,
+     .high = 1e6,
+     .nearest = true,
+     .cell_uv = separable_cell_uv,
+     .cell_v = line_cell_v,
+     .response = least_response,
+     .profile = WF_PROFILE_LINE},
     {.name = "crisp",
      .shape = "1.6 pixels x a kernel of 8 lines, designed to be sharp",
      .paper = "",

@@ -33,10 +33,12 @@ typedef struct wf_aperture_kind {
     const char *follows;     /* "B,C" if there are such after "name:"; else NULL */
     const char *example;     /* of what follows; else NULL */
     int parameters;          /* how many numbers follow that wf_aperture keeps */
-    const char *design;      /* the wish that a name stands for (design.h); else NULL */
-    const double *comb;      /* the answer to that wish; else NULL */
-    bool couples_uv;         /* h does not separate into u and v (shaped) */
-    bool couples_vq;         /* h does not separate into v and q (diamond with tau > 0) */
+    double low, high;        /* what each of them may be */
+    bool nearest; /* what it sees is the nearest picture's S; what follows is the weight */
+    const char *design; /* the wish that a name stands for (design.h); else NULL */
+    const double *comb; /* the answer to that wish; else NULL */
+    bool couples_uv;    /* h does not separate into u and v (shaped) */
+    bool couples_vq;    /* h does not separate into v and q (diamond with tau > 0) */
     /* The integral of h's spatial part over the cell [u0,u1] x [v0,v1]. */
     double (*cell_uv)(const wf_aperture *a, double u0, double u1, double v0, double v1);
     /* The integral over v of h's vertical part; for shaped, of 4 f(v). */
@@ -50,7 +52,7 @@ typedef struct wf_aperture_kind {
 
 struct wf_aperture {
     const wf_aperture_kind *kind;
-    double parameter[2];     /* mitchell: B, C */
+    double parameter[2];     /* mitchell: B, C; least: the weight of flicker */
     double reach_u, reach_v; /* multiples of 1/2; h is zero beyond */
     double half_u;           /* h is zero where |u| is more, unless h couples u and v */
     wf_stairs stairs;        /* designs: the vertical part */

@@ -19,13 +19,15 @@ static bool list_names(char *why, size_t why_size, const char *text) {
     return false;
 }
 
-/* Reads "B,C" after the colon. Beyond +-10 the cubic's lobes cancel to nothing useful. */
+/* Reads "B,C" after the colon. */
 static bool parse_parameters(const char *text, wf_aperture *out) {
     for (int p = 0; p < out->kind->parameters; p++) {
         const char *end;
         double value = wf_fraction_read(text, &end);
         char follows = p + 1 < out->kind->parameters ? ',' : '\0';
-        if (end == text || *end != follows || !(fabs(value) <= 10)) return false;
+        if (end == text || *end != follows ||
+            !(value >= out->kind->low && value <= out->kind->high))
+            return false;
         out->parameter[p] = value;
         text = end + 1;
     }
@@ -66,9 +68,9 @@ static bool parse_as(const wf_aperture_kind *kind, const char *text, wf_aperture
     if (wish && !parse_design(wish, &found, why, why_size)) return false;
     if (kind->parameters && !parse_parameters(colon + 1, &found)) {
         snprintf(why, why_size,
-                 "aperture '%s': write it %s:B,C with two numbers from -10 to 10, such as "
-                 "mitchell:3/2,-1/4",
-                 text, kind->name);
+                 "aperture '%s': write it %s:%s with %s from %g to %g, such as %s:%s", text,
+                 kind->name, kind->follows, kind->parameters == 1 ? "a number" : "two numbers",
+                 kind->low, kind->high, kind->name, kind->example);
         return false;
     }
     *out = found;

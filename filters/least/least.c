@@ -13,11 +13,6 @@ _Static_assert((int)WF_LEAST_COLUMNS == (int)wf_least_tile_px, "a tile is a tile
 
 WF_ISA_DISPATCH(wf_least_ops)
 
-double wf_least_response(double weight, double f) {
-    double s = sin(M_PI * f);
-    return 1 / (1 + weight * s * s * s * s);
-}
-
 /* ---- The matrix ---- */
 
 double wf_least_entry(const wf_least_desc *d, int j, int right) {

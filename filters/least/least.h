@@ -13,7 +13,7 @@
  * (filters/least/README.md). Without a limit there are no bounds at all, and L is S filtered:
  * of a frequency of f cycles a line 1 / (1 + weight sin^4(pi f)) is left. */
 typedef struct wf_least_desc {
-    int lines;     /* 3 or more */
+    int lines;     /* 2 or more */
     double weight; /* 0 or more */
     double limit;  /* above 0; INFINITY: there is none */
     double most;   /* above 0; INFINITY: there is none */
@@ -54,8 +54,5 @@ void wf_least_tile(const wf_least *least, wf_least_scratch *scratch, int tile, i
  * the bounds 0 and most, up less down. Column i of line j is [j * wf_least_tile_px + i]. */
 const double *wf_least_tension(const wf_least_scratch *scratch);
 const double *wf_least_press(const wf_least_scratch *scratch);
-
-/* Response to f cycles a line, away from the picture's edges. */
-double wf_least_response(double weight, double f);
 
 #endif

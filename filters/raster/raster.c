@@ -261,12 +261,12 @@ int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant) {
 }
 
 int wf_raster_parity(const wf_raster *raster, int64_t field) {
-    if (raster->scan == WF_PROGRESSIVE) return 0;
+    if (raster->scan == WF_PROGRESSIVE || raster->all_lines) return 0;
     return (field % 2 == 0) == raster->top_first ? 0 : 1;
 }
 
 int wf_raster_line_step(const wf_raster *raster) {
-    return wf_raster_fields_per_frame(raster);
+    return raster->all_lines ? 1 : wf_raster_fields_per_frame(raster);
 }
 
 int wf_raster_field_lines(const wf_raster *raster, int parity) {

@@ -27,6 +27,9 @@ typedef struct wf_raster {
      * that frames are AA BB BC CD DD. Never set by wf_raster_parse; not for segmented frames.
      */
     bool pulldown;
+    /* Fields are made with all lines of the frame at their instant, of which they keep their
+     * own later: parity 0, line step 1. Never set by wf_raster_parse. */
+    bool all_lines;
 } wf_raster;
 
 /* The named rasters, by index; NULL past the end. Static storage. */
@@ -59,7 +62,8 @@ int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant);
 wf_rational wf_raster_film_rate(const wf_raster *raster);
 
 /* Field n of the raster: its parity (0: it owns the top lines j = 0, 2, ..; 1: j = 1, 3, ..;
- * progressive rasters: always 0), the distance between its lines (2, or 1) and their number. */
+ * progressive rasters, and fields of all lines: always 0), the distance between its lines (2,
+ * or 1) and their number. */
 int wf_raster_parity(const wf_raster *raster, int64_t field);
 int wf_raster_line_step(const wf_raster *raster);
 int wf_raster_field_lines(const wf_raster *raster, int parity);

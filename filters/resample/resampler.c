@@ -57,7 +57,7 @@ static bool set_up(wf_resampler *rs, char *why, size_t why_size) {
 }
 
 static bool build_weights(wf_resampler *rs, char *why, size_t why_size) {
-    int parities = wf_raster_fields_per_frame(rs->desc.raster);
+    int parities = wf_raster_line_step(rs->desc.raster);
     bool built = true;
     for (int parity = 0; parity < parities; parity++)
         built = built && wf_weights_build(rs, parity);

@@ -20,7 +20,7 @@ for name in box notch shaped crisp calm; do
 done
 check "list as JSON" exits 0 weft filters --json
 check "list is JSON" json
-check "eleven apertures" value "len(d['apertures']) == 11"
+check "twelve apertures" value "len(d['apertures']) == 12"
 check "their flicker" value "{a['name']: round(a['flicker'], 3) for a in d['apertures']}['box'] == 0.063"
 check "list with residues" exits 0 weft filters --json --input-lines 1080
 check "residues" value "all('weights_db' in a['residue'] for a in d['apertures'])"

@@ -316,7 +316,7 @@ static void hold_bounds(const wf_least_desc *d, const float *l) {
 
 static void test_bounds_hold(void **state) {
     (void)state;
-    static const int heights[] = {3, 4, 5, 7, 486, 1080};
+    static const int heights[] = {2, 4, 5, 7, 486, 1080};
     static const double hard[] = {1, 0.1, 0.02, 0.005, 0.001};
     for (int kind = 0; kind < KINDS; kind++)
         for (int n = 0; n < 30; n++) {
@@ -391,6 +391,10 @@ static void test_non_expansive(void **state) {
     }
 }
 
+static double response(double weight, double f) {
+    return 1 / (1 + weight * pow(sin(M_PI * f), 4));
+}
+
 static void test_response_of_gratings(void **state) {
     (void)state;
     for (int m = 0; m < 4; m++)
@@ -402,8 +406,8 @@ static void test_response_of_gratings(void **state) {
                 s[i] = (float)cos(2 * M_PI * f * (i / WIDE) + i % WIDE);
             solved got = solve(&d, s);
             for (int i = 200 * WIDE; i < 286 * WIDE; i++)
-                assert_true(fabs((double)got.l[i] -
-                                 (double)s[i] * wf_least_response(d.weight, f)) < 1e-6);
+                assert_true(fabs((double)got.l[i] - (double)s[i] * response(d.weight, f)) <
+                            1e-6);
             release(&got);
             free(s);
         }

@@ -85,7 +85,7 @@ static void presets_are_what_a_new_job_has(void **state) {
     static const char *const sayings[] = {
         "from the files", "the aperture's",  "all",
         "the output's",   "the container's", "the input's, or 00:00:00:00",
-        "one a channel",  "not said"};
+        "one a channel",  "not said",        "shaped; line where flicker is held"};
     weft_option option;
     weft_job *fresh = new_job(), *job = new_job();
     for (size_t i = 0; weft_option_at(i, &option); i++) {

@@ -126,6 +126,7 @@ static void tiles(void **state) {
         const char *name = weft_aperture_name(a);
         weft_job *job = make_job(!strcmp(name, "mitchell") ? "mitchell:0.5,0.25"
                                  : !strcmp(name, "design") ? "design:sharp=0.7"
+                                 : !strcmp(name, "least")  ? "least:4"
                                                            : name);
         t.count = 0;
         assert_int_equal(weft_fields_new(job, 2, take, &t, &fields, &err), WEFT_OK);
