@@ -1,7 +1,6 @@
-/* One EXR chunk to samples: deflated ones by libdeflate, the others by OpenEXRCore. */
+/* One EXR chunk to samples, by a decoder of our own where there is one, else by OpenEXRCore. */
 #include "convert/read/chunk.h"
 
-#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,14 +8,13 @@
 #include "convert/read/source_exr.h"
 
 bool wf_chunk_decoder_init(wf_chunk_decoder *decoder) {
-    *decoder = (wf_chunk_decoder){.ops = wf_unzip_ops_best(),
-                                  .inflate = libdeflate_alloc_decompressor()};
-    return decoder->inflate;
+    *decoder = (wf_chunk_decoder){.channel = NULL};
+    return wf_exr_decoder_init(&decoder->exr);
 }
 
 void wf_chunk_decoder_free(wf_chunk_decoder *decoder) {
-    if (decoder->inflate) libdeflate_free_decompressor(decoder->inflate);
-    free(decoder->inflated);
+    wf_exr_decoder_free(&decoder->exr);
+    free(decoder->channel);
 }
 
 static weft_status damaged(const wf_subframe *s, const wf_chunk *chunk, const char *how,
@@ -30,16 +28,60 @@ static size_t chunk_bytes(const wf_subframe *s, const wf_chunk *chunk) {
            (size_t)(chunk->place.y1 - chunk->place.y0) * s->layout.pixel_bytes;
 }
 
-static weft_status decode_zip(wf_chunk_decoder *d, const wf_subframe *s, const wf_chunk *chunk,
-                              const uint8_t *packed, uint8_t *out, weft_error *err) {
-    size_t bytes = chunk_bytes(s, chunk);
-    if (!wf_reserve(&d->inflated, &d->inflated_capacity, bytes))
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to inflate a chunk", s->path);
-    if (libdeflate_zlib_decompress(d->inflate, packed, (size_t)chunk->info.packed_size,
-                                   d->inflated, bytes, NULL) != LIBDEFLATE_SUCCESS)
-        return damaged(s, chunk, "it does not inflate to its size", err);
-    d->suspect |= d->ops->merge(out, d->inflated, bytes);
-    return WEFT_OK;
+/* ---- What a chunk holds ---- */
+
+static size_t samples_between(int first, int end, int step) {
+    size_t samples = 0;
+    if (step == 1) return (size_t)(end - first);
+    for (int i = first; i < end; i++) samples += i % step == 0;
+    return samples;
+}
+
+static wf_exr_channel channel_of(const exr_attr_chlist_entry_t *c, wf_box place) {
+    wf_exr_channel channel = {
+        .name = c->name.str,
+        .type = (wf_exr_type)c->pixel_type,
+        .bytes = c->pixel_type == EXR_PIXEL_HALF ? 2 : 4,
+        .across = c->x_sampling,
+        .down = c->y_sampling,
+        .linear = c->p_linear,
+        .width = samples_between(place.x0, place.x1, c->x_sampling),
+        .lines = samples_between(place.y0, place.y1, c->y_sampling),
+    };
+    channel.line_bytes = channel.width * channel.bytes;
+    channel.plane_bytes = channel.line_bytes * channel.lines;
+    return channel;
+}
+
+bool wf_chunk_shape(wf_chunk_decoder *d, const wf_subframe *s, wf_box place,
+                    wf_exr_shape *shape) {
+    const exr_attr_chlist_t *list = NULL;
+    exr_get_channels(s->exr, s->part, &list);
+    if (!wf_reserve(&d->channel, &d->channel_capacity,
+                    (size_t)list->num_channels * sizeof *d->channel))
+        return false;
+    *shape = (wf_exr_shape){d->channel, list->num_channels, place.y0, place.y1 - place.y0, 0};
+    for (int c = 0; c < list->num_channels; c++) {
+        d->channel[c] = channel_of(&list->entries[c], place);
+        shape->bytes += d->channel[c].plane_bytes;
+    }
+    return true;
+}
+
+/* ---- Decoding ---- */
+
+static weft_status decode_by_own(wf_chunk_decoder *d, const wf_subframe *s,
+                                 const wf_chunk *chunk, const uint8_t *packed, uint8_t *out,
+                                 weft_error *err) {
+    wf_exr_decode_fn *decode = wf_exr_decode_of(s->layout.compression);
+    wf_exr_shape shape;
+    weft_error why = {""};
+    if (!wf_chunk_shape(d, s, chunk->place, &shape))
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for a chunk", s->path);
+    weft_status status =
+        decode(&d->exr, &shape, packed, (size_t)chunk->info.packed_size, out, &why);
+    if (status == WEFT_FAILED) return damaged(s, chunk, why.text, err);
+    return status ? wf_fail(err, status, "%s: %s", s->path, why.text) : WEFT_OK;
 }
 
 static exr_result_t already_read(exr_decode_pipeline_t *pipeline) {
@@ -82,7 +124,7 @@ static weft_status decode_by_core(wf_chunk_decoder *d, const wf_subframe *s,
     exr_result_t result = exr_decoding_initialize(s->exr, s->part, &chunk->info, &pipeline);
     if (result == EXR_ERR_SUCCESS) result = run_pipeline(&pipeline, s, chunk, packed, out);
     exr_decoding_destroy(s->exr, &pipeline);
-    d->suspect = true;
+    d->exr.suspect = true;
     return result == EXR_ERR_SUCCESS ? WEFT_OK : damaged(s, chunk, wf_exr_trouble(result), err);
 }
 
@@ -96,7 +138,7 @@ static bool inflates_to_its_own_size(wf_chunk_decoder *d, const wf_subframe *s,
     bool zip = how == EXR_COMPRESSION_ZIP || how == EXR_COMPRESSION_ZIPS;
     bool headed = chunk->info.packed_size > 2 && (packed[0] & 15) == 8 &&
                   (packed[0] * 256 + packed[1]) % 31 == 0;
-    return zip && headed && decode_zip(d, s, chunk, packed, out, NULL) == WEFT_OK;
+    return zip && headed && decode_by_own(d, s, chunk, packed, out, NULL) == WEFT_OK;
 }
 
 weft_status wf_chunk_decode(wf_chunk_decoder *d, const wf_subframe *s, const wf_chunk *chunk,
@@ -105,11 +147,10 @@ weft_status wf_chunk_decode(wf_chunk_decoder *d, const wf_subframe *s, const wf_
     if (chunk->info.packed_size == chunk_bytes(s, chunk)) {
         if (inflates_to_its_own_size(d, s, chunk, packed, out)) return WEFT_OK;
         memcpy(out, packed, chunk_bytes(s, chunk)); /* stored as it is: it would not shrink */
-        d->suspect = true;
+        d->exr.suspect = true;
         return WEFT_OK;
     }
     if (how == EXR_COMPRESSION_NONE) return damaged(s, chunk, "it is too short", err);
-    if (how == EXR_COMPRESSION_ZIP || how == EXR_COMPRESSION_ZIPS)
-        return decode_zip(d, s, chunk, packed, out, err);
-    return decode_by_core(d, s, chunk, packed, out, err);
+    return wf_exr_decode_of(how) ? decode_by_own(d, s, chunk, packed, out, err)
+                                 : decode_by_core(d, s, chunk, packed, out, err);
 }

@@ -1,10 +1,8 @@
 #ifndef WF_CONVERT_READ_CHUNK_H
 #define WF_CONVERT_READ_CHUNK_H
 
+#include "convert/read/exr/decode.h"
 #include "convert/read/subframe.h"
-#include "convert/read/unzip.h"
-
-struct libdeflate_decompressor;
 
 /* Chunks of an EXR: the unit that is stored, compressed and decoded alone. */
 
@@ -17,16 +15,19 @@ typedef struct wf_chunk {
 
 /* Buffers that one thread decodes chunks with. */
 typedef struct wf_chunk_decoder {
-    const wf_unzip_ops *ops;
-    struct libdeflate_decompressor *inflate;
-    uint8_t *inflated;
-    size_t inflated_capacity;
-    bool suspect; /* what was decoded since this was false may hold NaN or Inf */
+    wf_exr_decoder exr;
+    wf_exr_channel *channel; /* of the chunk in hand */
+    size_t channel_capacity;
 } wf_chunk_decoder;
 
 /* False when memory is out; wf_chunk_decoder_free releases it in any case. */
 bool wf_chunk_decoder_init(wf_chunk_decoder *decoder);
 void wf_chunk_decoder_free(wf_chunk_decoder *decoder);
+
+/* What lies in a chunk of these columns and lines; its channels belong to the decoder until the
+ * next call. False when memory is out. */
+bool wf_chunk_shape(wf_chunk_decoder *decoder, const wf_subframe *subframe, wf_box place,
+                    wf_exr_shape *shape);
 
 /* Decodes packed to out: [lines][channels of the file][width of the chunk]. An error names the
  * file and the line. */

@@ -10,7 +10,7 @@
 
 #include "convert/base/reserve.h"
 #include "convert/read/source_exr.h"
-#include "convert/read/unzip.h"
+#include "convert/read/exr/unzip.h"
 #include "filters/base/half.h"
 
 /* One pixel's samples beyond these are no renderer's. */

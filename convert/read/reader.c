@@ -201,7 +201,7 @@ static weft_status decode_ahead(wf_reader *r, const wf_subframe *s, int y0, int 
         bytes += (size_t)r->ahead.chunk[i].info.unpacked_size;
     *changed = !compare;
     r->held = false;
-    r->decoder.suspect = (compare && r->decoder.suspect) || !all_half(l, s);
+    r->decoder.exr.suspect = (compare && r->decoder.exr.suspect) || !all_half(l, s);
     if (!wf_reserve(&r->native, &r->native_capacity, bytes)) return no_memory(s, err);
     r->native_y0 = chunk_top(l, y0);
     for (int i = 0; i < r->ahead.count; i++) {
@@ -313,7 +313,7 @@ static weft_status made_rows(wf_reader *r, const wf_subframe *s, int y0, int y1,
         s->maker->rows(s->picture, y, least(y + s->maker->most_rows, y1), r->tile,
                        (float *[4]){at, at + plane, at + 2 * plane, at + 3 * plane});
     }
-    r->decoder.suspect = false;
+    r->decoder.exr.suspect = false;
     return WEFT_OK;
 }
 
@@ -324,7 +324,7 @@ static weft_status raw_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, 
     if (s->maker) return made_rows(r, s, y0, y1, err);
     if (!s->exr) {
         r->held = false;
-        r->decoder.suspect = true;
+        r->decoder.exr.suspect = true;
         whole_rows(s, y0, y1, &r->rows);
         return WEFT_OK;
     }
@@ -342,10 +342,10 @@ static bool any_not_finite(const wf_reader *r, const wf_rows *rows) {
     for (int c = 0; c < rows->channels; c++)
         for (int y = rows->y0; y < rows->y1; y++) {
             size_t at = (size_t)(y - rows->y0) * rows->line_stride;
-            bool odd =
-                rows->type == WF_HALF
-                    ? r->decoder.ops->odd_halves((const uint16_t *)rows->plane[c] + at, width)
-                    : r->decoder.ops->odd_floats((const float *)rows->plane[c] + at, width);
+            bool odd = rows->type == WF_HALF ? r->decoder.exr.unzip->odd_halves(
+                                                   (const uint16_t *)rows->plane[c] + at, width)
+                                             : r->decoder.exr.unzip->odd_floats(
+                                                   (const float *)rows->plane[c] + at, width);
             if (odd) return true;
         }
     return false;
@@ -483,7 +483,7 @@ weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, w
     weft_status status = raw_rows(r, s, y0, y1, &changed, err);
     if (!status && changed) {
         r->fixed = 0;
-        if (r->decoder.suspect && r->options.nan_fix != WF_NAN_NONE &&
+        if (r->decoder.exr.suspect && r->options.nan_fix != WF_NAN_NONE &&
             any_not_finite(r, &r->rows))
             status = fix_nan(r, s, err);
         if (!status && !bring_to_light(r, s)) status = no_memory(s, err);

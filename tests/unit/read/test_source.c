@@ -12,7 +12,7 @@
 
 #include "convert/read/nan_fix.h"
 #include "convert/read/source.h"
-#include "convert/read/unzip.h"
+#include "convert/read/exr/unzip.h"
 #include "filters/base/half.h"
 #include "tests/unit/support/exr_write.h"
 

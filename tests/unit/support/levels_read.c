@@ -1,7 +1,11 @@
-/* The bytes of ZIP, for test_isa.c. */
+/* What is undone of the compressions of EXR, for test_isa.c. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "convert/read/unzip.h"
+#include "convert/read/exr/huffman.h"
+#include "convert/read/exr/unzip.h"
+#include "convert/read/exr/wavelet.h"
 #include "tests/unit/support/levels.h"
 
 static void keep_answer(level_run *r, bool answer) {
@@ -54,13 +58,187 @@ static void odd_floats(level_run *r) {
     keep_answer(r, r->plain ? odd : wf_unzip_ops_at(r->level)->odd_floats(value, r->count));
 }
 
+/* ---- Huffman codes ---- */
+
+/* Bits that are written, the top bit of a byte first. */
+typedef struct bit_writer {
+    uint8_t *byte;
+    size_t bits;
+} bit_writer;
+
+static void put_bits(bit_writer *w, uint32_t value, unsigned count) {
+    while (count--) {
+        uint8_t *to = &w->byte[w->bits / 8];
+        if (w->bits % 8 == 0) *to = 0;
+        *to = (uint8_t)(*to | (value >> count & 1) << (7 - w->bits % 8));
+        w->bits++;
+    }
+}
+
+/* Codes of 1, 2, .. n - 1 and n - 1 bits, which are 1, 01, 001 and so on, and at last 0..00. Of
+ * the two longest the lower symbol is 0..00. */
+typedef struct ladder {
+    unsigned symbols, length[32];
+    uint16_t first; /* symbol; they follow each other */
+} ladder;
+
+static ladder draw_ladder(level_run *r) {
+    ladder l = {.symbols = 2 + level_draw(r) % 28, .first = (uint16_t)(level_draw(r) % 60000)};
+    for (unsigned i = 0; i < l.symbols; i++) l.length[i] = i + 1 < l.symbols ? i + 1 : i;
+    for (unsigned i = 0; i < l.symbols; i++) {
+        unsigned j = level_draw(r) % l.symbols, swap = l.length[i];
+        l.length[i] = l.length[j];
+        l.length[j] = swap;
+    }
+    return l;
+}
+
+static void put_code(bit_writer *w, const ladder *l, unsigned symbol) {
+    bool lower = false;
+    for (unsigned i = symbol + 1; i < l->symbols; i++)
+        lower |= l->length[i] == l->length[symbol];
+    put_bits(w, !lower, l->length[symbol]);
+}
+
+static unsigned draw_symbol(level_run *r, const ladder *l) {
+    unsigned length = 1;
+    while (length < l->symbols - 1 && level_draw(r) % 4) length++;
+    for (unsigned i = 0;; i++)
+        if (l->length[i] == length) return i;
+}
+
+/* Words and how they are packed; every now and then one is repeated. */
+static size_t pack_words(level_run *r, const ladder *l, uint16_t *word, bit_writer *w) {
+    size_t count = 0;
+    while (count < r->count) {
+        size_t times = level_draw(r) % 40;
+        bool run = count && level_draw(r) % 8 == 0 && times <= r->count - count;
+        unsigned symbol = run ? l->symbols - 1 : draw_symbol(r, l);
+        if (!run && symbol == l->symbols - 1) continue;
+        put_code(w, l, symbol);
+        if (run) put_bits(w, (uint32_t)times, 8);
+        for (size_t i = 0; run && i < times; i++, count++) word[count] = word[count - 1];
+        if (!run) word[count++] = (uint16_t)(l->first + symbol);
+    }
+    return count;
+}
+
+static void put_little(uint8_t *to, uint32_t value) {
+    for (int i = 0; i < 4; i++) to[i] = (uint8_t)(value >> 8 * i);
+}
+
+/* A packed stream in memory that ends where it ends; what it should become goes to `word`. */
+static uint8_t *draw_stream(level_run *r, uint16_t *word, size_t *size) {
+    ladder l = draw_ladder(r);
+    bit_writer w = {.byte = malloc(64 + 8 * r->count)};
+    if (!w.byte) abort();
+    memset(w.byte, 0, 20);
+    put_little(w.byte, l.first);
+    put_little(w.byte + 4, l.first + l.symbols - 1);
+    w.bits = 8 * 20;
+    for (unsigned i = 0; i < l.symbols; i++) put_bits(&w, l.length[i], 6);
+    w.bits = (w.bits + 7) / 8 * 8;
+    size_t before = w.bits;
+    pack_words(r, &l, word, &w);
+    put_little(w.byte + 12, (uint32_t)(w.bits - before));
+    *size = (w.bits + 7) / 8;
+    uint8_t *packed = level_buffer(r, *size);
+    memcpy(packed, w.byte, *size);
+    free(w.byte);
+    return packed;
+}
+
+static void huffman_decode(level_run *r) {
+    size_t size;
+    wf_huffman_codes *codes = malloc(sizeof *codes);
+    if (!codes) abort();
+    uint16_t *word = level_halves(r, r->count), *made = level_halves(r, r->count);
+    uint8_t *packed = draw_stream(r, word, &size);
+    wf_huffman_stream stream = {.word = made, .words = r->count};
+    bool good = !wf_huffman_open(codes, packed, size, &stream);
+    if (!r->plain && good) good = wf_huffman_ops_at(r->level)->decode(&stream);
+    level_keep_codes(r, r->plain ? word : made, r->count);
+    keep_answer(r, good);
+    free(codes);
+}
+
+/* ---- PIZ's wavelet ---- */
+
+/* Numbers with signs, of 16 bits, and modulo 2^16, as the format defines them. */
+static void apart(int l, int h, uint16_t *a, uint16_t *b, bool narrow) {
+    if (narrow) {
+        int sum = (int16_t)l + ((int16_t)h & 1) + (int)floor((int16_t)h / 2.0);
+        *a = (uint16_t)sum;
+        *b = (uint16_t)(sum - (int16_t)h);
+    } else {
+        *b = (uint16_t)(l - h / 2);
+        *a = (uint16_t)(h + *b + 0x8000);
+    }
+}
+
+static void undo_plainly(uint16_t *w, size_t width, size_t lines, const uint16_t *mean,
+                         bool narrow) {
+    for (size_t y = 0; y + 1 < lines; y += 2)
+        for (size_t x = 0; x + 1 < width; x += 2)
+            w[y * width + x] = mean[y / 2 * (width / 2) + x / 2];
+    for (size_t y = 0; y + 1 < lines; y += 2)
+        for (size_t x = 0; x < width; x++) {
+            uint16_t *top = w + y * width + x;
+            apart(top[0], top[width], top, top + width, narrow);
+        }
+    for (size_t y = 0; y < lines; y++)
+        for (size_t x = 0; x + 1 < width; x += 2) {
+            uint16_t *left = w + y * width + x;
+            apart(left[0], left[1], left, left + 1, narrow);
+        }
+}
+
+static void wavelet_undo(level_run *r) {
+    size_t lines = 1 + level_draw(r) % 5, width = r->count / lines;
+    bool narrow = level_draw(r) % 2;
+    uint16_t *mean = level_halves(r, (width / 2) * (lines / 2));
+    uint16_t *word = level_halves(r, width * lines);
+    if (r->plain)
+        undo_plainly(word, width, lines, mean, narrow);
+    else
+        wf_wavelet_ops_at(r->level)->undo(word, width, width, lines, mean, narrow);
+    level_keep_codes(r, word, width * lines);
+}
+
+static void wavelet_evens(level_run *r) {
+    uint16_t *from = level_halves(r, 2 * r->count), *to = level_halves(r, r->count);
+    if (!r->plain) wf_wavelet_ops_at(r->level)->evens(to, from, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) to[i] = from[2 * i];
+    level_keep_codes(r, to, r->count);
+}
+
+static void wavelet_look_up(level_run *r) {
+    uint16_t *from = level_halves(r, r->count), *table = level_halves(r, 65536);
+    uint16_t *to = level_halves(r, r->count);
+    if (!r->plain) wf_wavelet_ops_at(r->level)->look_up((uint8_t *)to, from, table, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) to[i] = table[from[i]];
+    level_keep_codes(r, to, r->count);
+}
+
 static const level_row rows[] = {
     {"unzip.merge", merge, true, 0},
     {"unzip.odd_halves", odd_halves, true, 0},
     {"unzip.odd_floats", odd_floats, true, 0},
 };
 
+static const level_row huffman_rows[] = {
+    {"huffman.decode", huffman_decode, true, 0},
+};
+
+static const level_row wavelet_rows[] = {
+    {"wavelet.undo", wavelet_undo, true, 0},
+    {"wavelet.evens", wavelet_evens, true, 0},
+    {"wavelet.look_up", wavelet_look_up, true, 0},
+};
+
 const level_table level_read[] = {
-    LEVEL_TABLE("convert/read/unzip_isa.c", wf_unzip_ops, rows),
+    LEVEL_TABLE("convert/read/exr/unzip_isa.c", wf_unzip_ops, rows),
+    LEVEL_TABLE("convert/read/exr/huffman_isa.c", wf_huffman_ops, huffman_rows),
+    LEVEL_TABLE("convert/read/exr/wavelet_isa.c", wf_wavelet_ops, wavelet_rows),
     {.file = NULL},
 };

@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_READ_UNZIP_H
-#define WF_CONVERT_READ_UNZIP_H
+#ifndef WF_CONVERT_READ_EXR_UNZIP_H
+#define WF_CONVERT_READ_EXR_UNZIP_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
  * so t is the running sum of d, with the top bit flipped wherever i is odd. Both halves are
  * summed side by side: the sum with which the odd bytes start is found first, which costs less
  * than the second pass over memory that splitting the loop would. */
-#include "convert/read/unzip.h"
+#include "convert/read/exr/unzip.h"
 
 #include <string.h>
 #if defined(__SSE2__)

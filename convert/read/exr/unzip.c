@@ -1,4 +1,4 @@
 /* Which of the loops over inflated bytes is used. */
-#include "convert/read/unzip.h"
+#include "convert/read/exr/unzip.h"
 
 WF_ISA_DISPATCH(wf_unzip_ops)
