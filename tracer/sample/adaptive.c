@@ -52,7 +52,7 @@ typedef int wants_fn(const wf_adaptive *a, int at);
 
 /* How many times as many samples a cell wants. */
 static double wanted(const wf_adaptive *a, int at) {
-    double over = a->cell[at].need / wf_adaptive_target(a);
+    double over = a->cell[at].need / (wf_adaptive_target(a) * a->cell[at].allowed);
     return pow(over, 1 / fmax(a->fall, FAST_FALL));
 }
 
@@ -86,7 +86,9 @@ static int wants_samples(const wf_adaptive *a, int at) {
     int was = a->cell[at].each, each = 2 * was;
     bool again = a->edge[at].tried && !a->edge[at].found && was < AGAIN * EDGE_EACH;
     double most = was * fmin(wanted(a, at), again ? AGAIN : MOST_AT_ONCE);
-    if (was >= WF_MOST_EACH || a->cell[at].need <= TOLERATED * wf_adaptive_target(a)) return 0;
+    if (was >= WF_MOST_EACH ||
+        a->cell[at].need <= TOLERATED * a->cell[at].allowed * wf_adaptive_target(a))
+        return 0;
     while (M_SQRT2 * each <= most && 2 * each <= WF_MOST_EACH) each *= 2;
     return each;
 }

@@ -30,6 +30,7 @@ typedef struct wf_adaptive_cell {
     double one;  /* the square of what it would be off with one sample, had it no edge */
     double need; /* the square of what it is off, as those about it say it, too; on the display,
                     in an output pixel */
+    double allowed; /* how many times the error that the tile's cells may have; squared */
 } wf_adaptive_cell;
 
 /* One edge through a cell: where it is, and what is on its sides. */

@@ -176,27 +176,30 @@ static double largest_pair(const pool *p, int at) {
 }
 
 /* Of the tile's pixels this share may be off by more than the error asked for: the fewer of
- * them are uncertain at all, the more may these be. */
-#define OUTSIDE 0.007
+ * them are uncertain at all, the more may these be. Where pixels see parts of many cells, what
+ * these are off adds up to something more even. */
+#define OUTSIDE      0.007
+#define OUTSIDE_WIDE 0.011
 
 /* A cell counts as uncertain from this part of the most that it may be off; squared. */
 #define UNCERTAIN 0.3
 
 /* The deviation beyond which a share p of normal errors lies is about sqrt(-2 ln p) - 0.44. */
-static double caution_for(double uncertain) {
-    double share = OUTSIDE / fmax(uncertain, 0.05);
+static double caution_for(const wf_adaptive *a, double uncertain) {
+    double outside = wf_cuts_cells(a->s) ? OUTSIDE_WIDE : OUTSIDE;
+    double share = outside / fmax(uncertain, 0.05);
     return 1 / (sqrt(-2 * log(share)) - 0.44);
 }
 
 static void find_caution(wf_adaptive *a) {
-    double most = a->s->desc.error * caution_for(0), own = 0, uncertain = 0;
+    double most = a->s->desc.error * caution_for(a, 0), own = 0, uncertain = 0;
     for (int at = 0; at < GRID_CELLS; at++) {
         const wf_adaptive_cell *c = &a->cell[at];
         if (!c->own) continue;
         own++;
         uncertain += c->need > UNCERTAIN * most * most;
     }
-    a->caution = caution_for(uncertain / own);
+    a->caution = caution_for(a, uncertain / own);
 }
 
 /* V(N/4) - V(N) is the sum of both gains; what is left of it follows from the fall. */
@@ -252,10 +255,43 @@ static double need_of(const pool *p, int at) {
     return fmax(fmax(seen, missed), cut) * wf_adaptive_share(a);
 }
 
+/* So many samples leave the least error over all if the square of each cell's goes with the
+ * root of what one sample of it is off, and the fewest pixels far off if all are alike. Between
+ * them, with this power; from so little on, and up to what no cell may be off by more. */
+#define SPREAD        0.3
+#define LEAST_ALLOWED 0.25
+#define MOST_ALLOWED  2.0
+#define FARTHEST      0.65
+
+/* From this part of the error that cells may have they count here; squared. */
+#define COUNTS 1e-4
+
+static double allowed_of(const wf_adaptive *a, const wf_adaptive_cell *c) {
+    return pow(c->need * pow(WF_QUARTERS * c->each, a->fall), SPREAD);
+}
+
+static void find_allowed(wf_adaptive *a) {
+    double sum = 0, count = 0, farthest = FARTHEST / a->caution;
+    double most = fmin(fmax(farthest * farthest, 1), MOST_ALLOWED);
+    for (int at = 0; at < GRID_CELLS; at++) {
+        wf_adaptive_cell *c = &a->cell[at];
+        c->allowed = 1;
+        if (!c->own || !(c->need > COUNTS * wf_adaptive_target(a))) continue;
+        sum += allowed_of(a, c);
+        count++;
+    }
+    for (int at = 0; at < GRID_CELLS && count > 0; at++) {
+        wf_adaptive_cell *c = &a->cell[at];
+        if (!c->own || !(c->need > 0)) continue;
+        c->allowed = fmin(fmax(allowed_of(a, c) * count / sum, LEAST_ALLOWED), most);
+    }
+}
+
 void wf_pool_errors(wf_adaptive *a) {
     pool p = {.a = a};
     find_ones(a, &p);
     for (int at = 0; at < GRID_CELLS; at++)
         if (a->cell[at].there) a->cell[at].need = need_of(&p, at);
     find_caution(a);
+    find_allowed(a);
 }
