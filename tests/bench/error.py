@@ -63,9 +63,9 @@ class Case:
             return f"{path}.{FRAME:04}.exr", json.load(f), ran.returncode
 
     def cost(self, *how):
-        """CPU seconds of a run that writes video, which has hardly a start-up: the least of three."""
+        """CPU seconds of a run that writes video, which has hardly a start-up: the less of two."""
         runs = []
-        for _ in range(3):
+        for _ in range(2):
             before = children_cpu()
             subprocess.run([os.path.join(self.build, "weft"), "render", *self.job, *map(str, how), "-q",
                             "--threads", "1", "--overwrite", "-o", os.path.join(self.out, "cost.y4m")],

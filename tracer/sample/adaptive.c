@@ -20,11 +20,13 @@
 #define COARSE_ERROR 0.02
 
 /* Samples of a quarter that tell whether there is an edge, how many times as many may tell
- * more, so many that more would not, and how many more a cell has to need as points before one
- * is looked for, which costs about 40 rays. */
+ * more, and so many that more would not; of so many edges that are looked for in a tile one has
+ * to be found for another look; and how many more samples a cell has to need as points before
+ * one is looked for, which costs about 40 rays. */
 #define EDGE_EACH    4
 #define AGAIN        4
 #define MOST_TRIED   64
+#define RARELY       12
 #define EDGE_SAMPLES 64
 
 /* How fast the square of an error may fall as samples become more, how far it may be over
@@ -65,11 +67,21 @@ static int wants_to_be_seen(const wf_adaptive *a, int at) {
     return needs_many(a, at) && a->cell[at].each < EDGE_EACH ? EDGE_EACH : 0;
 }
 
+/* Whether too few edges were found where they were looked for to look again. */
+static bool is_hopeless(const wf_adaptive *a) {
+    int tried = 0, found = 0;
+    for (int at = 0; at < GRID_CELLS; at++) {
+        tried += a->edge[at].tried > 0;
+        found += a->edge[at].found;
+    }
+    return tried > RARELY * (found + 1);
+}
+
 /* Whatever they say once there are some more: quarters may agree where none is right. */
 static int wants_edge(const wf_adaptive *a, int at) {
     if (!a->edge[at].tried) return a->edge[at].seen || needs_many(a, at);
-    return a->edge[at].tried < MOST_TRIED && a->cell[at].each >= AGAIN * a->edge[at].tried &&
-           needs_many(a, at);
+    return !a->hopeless && a->edge[at].tried < MOST_TRIED &&
+           a->cell[at].each >= AGAIN * a->edge[at].tried && needs_many(a, at);
 }
 
 static int wants_to_follow(const wf_adaptive *a, int at) {
@@ -154,6 +166,7 @@ static bool find_edges(wf_adaptive *a) {
     bool any = choose(a, true, wants_to_be_seen);
     for (int at = 0; at < GRID_CELLS; at++) a->edge[at].seen |= a->more[at] > 0;
     if (any && !draw_round(a)) return false;
+    a->hopeless = is_hopeless(a);
     if (!choose(a, true, wants_edge)) return true;
     if (!wf_edges_find(a)) return false;
     while (choose(a, true, wants_to_follow))

@@ -55,6 +55,7 @@ typedef struct wf_adaptive {
     int more[GRID_CELLS]; /* how many samples of a quarter cells are to have, or that they are
                              to be looked at; 0: not in question */
     wf_row_time time[GRID_ROWS];
+    bool hopeless;  /* hardly any edge was found where one was looked for */
     double caution; /* the RMS error that cells may have, of the one asked for */
     double fall;    /* errors' squares fall with this power of the number of samples */
 } wf_adaptive;
