@@ -26,6 +26,8 @@ static void free_packed(wf_packed *packed) {
 void wf_reader_free(wf_reader *r) {
     if (!r) return;
     wf_reader_free(r->neighbor);
+    wf_reader_free(r->base);
+    wf_reader_free(r->over);
     wf_chunk_decoder_free(&r->decoder);
     free_packed(&r->kept);
     free_packed(&r->ahead);
@@ -322,6 +324,7 @@ static weft_status raw_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, 
     weft_status status = WEFT_OK;
     *changed = true;
     if (s->maker) return made_rows(r, s, y0, y1, err);
+    if (s->layers) return wf_composed_rows(r, s, y0, y1, err);
     if (!s->exr) {
         r->held = false;
         r->decoder.exr.suspect = true;

@@ -34,10 +34,15 @@ struct wf_reader {
     size_t tile_capacity;
     float *plain, *edges; /* rows as floats; the rows above and below them */
     size_t plain_capacity, edges_capacity;
-    wf_reader *neighbor; /* reads those */
-    bool stored;         /* rows are handed out as files store them: it is a neighbor */
-    float *light;        /* rows after wf_reader's last step */
+    wf_reader *neighbor;    /* reads those */
+    wf_reader *base, *over; /* read the layers of pictures that are composed */
+    bool stored;            /* rows are handed out as files store them: it is a neighbor */
+    float *light;           /* rows after wf_reader's last step */
     size_t light_capacity;
 };
+
+/* Makes the rows of a composed picture the reader's. (composed.c) */
+weft_status wf_composed_rows(wf_reader *reader, const wf_subframe *subframe, int y0, int y1,
+                             weft_error *err);
 
 #endif

@@ -64,6 +64,18 @@ typedef struct wf_row_maker {
  * failure the picture has been closed. */
 weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width_px, int lines,
                              wf_subframe **out, weft_error *err);
+/* A picture that exists in part: columns and rows of the display window, half-open. */
+typedef struct wf_layer_over {
+    wf_subframe *picture;
+    wf_box region;
+} wf_layer_over;
+
+/* A picture that shows at every pixel the last of `layers` that exists there. The first is
+ * everywhere, whatever its region says, and all are of one size. Takes the pictures over, on
+ * failure too; layers itself is copied. */
+weft_status wf_subframe_composed(const wf_layer_over *layers, int count, wf_subframe **out,
+                                 weft_error *err);
+
 const wf_image_info *wf_subframe_info(const wf_subframe *subframe);
 
 /* Which picture of the file it is: the part's name ("" if it has none, or the file has no

@@ -85,6 +85,8 @@ weft_status wf_subframe_made(const wf_row_maker *maker, void *picture, int width
 void wf_subframe_close(wf_subframe *s) {
     if (!s) return;
     if (s->maker) s->maker->close(s->picture);
+    for (int i = 0; i < s->layers; i++) wf_subframe_close(s->layer[i].picture);
+    free(s->layer);
     if (s->exr) exr_finish(&s->exr);
     if (s->owns_decode) s->decode.free(s->decode.self);
     free(s->whole);

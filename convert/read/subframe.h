@@ -42,6 +42,8 @@ struct wf_subframe {
     char trouble[256];         /* what was wrong with it */
     const wf_row_maker *maker; /* NULL: it is a file */
     void *picture;             /* the maker's */
+    wf_layer_over *layer;      /* [layers] of one that is composed, bottom first */
+    int layers;                /* 0: it is not */
     float *whole;              /* [channels][height][width] of the data window */
 };
 

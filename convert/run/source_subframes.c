@@ -7,6 +7,7 @@
 #include "convert/run/fitting.h"
 #include "convert/run/time/picture_rate.h"
 #include "convert/run/pictures.h"
+#include "convert/run/refined.h"
 #include "convert/run/subframe_check.h"
 #include "convert/run/time/timecode_start.h"
 
@@ -15,6 +16,7 @@ typedef struct subframes {
     wf_source_options options;
     wf_first_subframe first; /* that is there */
     wf_shown shown;
+    wf_refined refined;   /* units: of files that exist in part; none: all are whole */
     wf_rational *edges;   /* of the times that pictures are shown at; NULL: they have a rate */
     wf_rational *missing; /* numbers that fields of this chunk need and that have no file */
     size_t missing_count;
@@ -31,6 +33,7 @@ static void close_input(wf_run *run) {
     if (!s) return;
     wf_resampler_free(s->resampler);
     wf_shown_free(&s->shown);
+    wf_refined_free(&s->refined);
     free(s->edges);
     free(s->missing);
     free(s);
@@ -124,6 +127,13 @@ static weft_status settle_rate(const weft_job *job, wf_run *run, weft_error *err
     bool given = wf_ratio_given(job->subframe_rate);
     char text[48] = "irregular";
     weft_status status = WEFT_OK;
+    status = wf_refine_sequence(job, &s->first.info, &run->setup.sequence, &s->shown,
+                                &s->refined, err);
+    if (status) return status;
+    if (s->refined.units) {
+        wf_take(&run->report->taken, "rate", "refined", "file");
+        return WEFT_OK;
+    }
     s->shown.rate = job->subframe_rate;
     if (!given)
         status = wf_shown_by_files(job->inputs[0], &s->first.info, &run->setup.sequence,
@@ -153,6 +163,12 @@ static void choose_bands(const subframes *s, wf_resample_desc *desc) {
     desc->band_origin = s->first.info.data.y0 - s->first.info.display.y0;
 }
 
+/* How long the sequence is shown, in seconds. */
+static wf_rational length(const subframes *s, size_t count) {
+    return s->refined.units ? wf_ratio_difference(s->refined.end_s, s->refined.begin_s)
+                            : wf_ratio_difference(s->shown.times_s[count], s->shown.times_s[0]);
+}
+
 static wf_resample_desc describe_fields(const wf_run *run) {
     const weft_job *job = run->job;
     const subframes *s = run->source;
@@ -161,11 +177,17 @@ static wf_resample_desc describe_fields(const wf_run *run) {
     desc.timing.edges = s->edges;
     desc.channels = s->options.want_alpha ? 4 : 3; /* later files may have alpha */
     if (s->edges)
-        desc.timing.shown = wf_ratio_div(
-            wf_ratio_difference(s->shown.times_s[desc.timing.subframes], s->shown.times_s[0]),
-            wf_raster_field_period(&job->raster));
+        desc.timing.shown = wf_ratio_div(length(s, run->setup.sequence.count),
+                                         wf_raster_field_period(&job->raster));
     choose_bands(s, &desc);
     return desc;
+}
+
+/* Spans of a refined sequence may begin before or after its fields do. */
+static void move_edges(const wf_raster *raster, const wf_refined *r, wf_rational *edges) {
+    wf_rational late = wf_ratio_div(wf_ratio_difference(r->edge_s[0], r->begin_s),
+                                    wf_raster_field_period(raster));
+    for (size_t u = 0; u <= r->units; u++) edges[u] = wf_ratio_sum(edges[u], late);
 }
 
 static weft_status make_edges(const wf_run *run, weft_error *err) {
@@ -176,10 +198,12 @@ static weft_status make_edges(const wf_run *run, weft_error *err) {
     if (!s->shown.times_s) return WEFT_OK;
     s->edges = calloc(count + 1, sizeof *s->edges);
     if (!s->edges) return wf_fail(err, WEFT_NO_MEMORY, "no memory for times");
-    if (wf_timing_edges(&job->raster, s->shown.times_s, (int64_t)count,
-                        job->subframe_time_center, s->edges, why, sizeof why))
-        return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED, "%s: %s", job->inputs[0], why);
+    if (!wf_timing_edges(&job->raster, s->shown.times_s, (int64_t)count,
+                         job->subframe_time_center && !s->refined.units, s->edges, why,
+                         sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s: %s", job->inputs[0], why);
+    if (s->refined.units) move_edges(&job->raster, &s->refined, s->edges);
+    return WEFT_OK;
 }
 
 static weft_status refuse_few(const wf_run *run, weft_error *err) {
@@ -310,14 +334,40 @@ static bool same(const wf_run *run, int64_t a, int64_t b) {
     return shown_at(run, a) == shown_at(run, b);
 }
 
-static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
-                                weft_error *err) {
+static weft_status open_file(const wf_run *run, const wf_subframe_ref *ref, wf_subframe **out,
+                             weft_error *err) {
     const subframes *s = run->source;
-    const wf_subframe_ref *ref = shown_at(run, k);
-    if (!ref->path) return WEFT_OK;
     weft_status status = wf_subframe_open(ref->path, ref->part, &s->options, out, err);
     if (status) return status;
     return wf_check_subframe(run->job, &s->first, ref->path, ref->part >= 0, *out, err);
+}
+
+/* A picture of several files, each where it exists. */
+static weft_status open_stack(const wf_run *run, int64_t k, wf_subframe **out,
+                              weft_error *err) {
+    const subframes *s = run->source;
+    const wf_refined_file *stack[WF_REFINED_LAYERS];
+    wf_layer_over layers[WF_REFINED_LAYERS];
+    int count, opened = 0;
+    weft_status status = wf_refined_stack(&s->refined, (size_t)k, stack, &count, err);
+    for (; !status && opened < count; opened++) {
+        layers[opened] = (wf_layer_over){.region = stack[opened]->region};
+        status = open_file(run, &stack[opened]->ref, &layers[opened].picture, err);
+    }
+    if (!status && count == 1)
+        *out = layers[0].picture;
+    else if (!status)
+        return wf_subframe_composed(layers, count, out, err);
+    for (int i = 0; status && i < opened; i++) wf_subframe_close(layers[i].picture);
+    return status;
+}
+
+static weft_status open_picture(const wf_run *run, int64_t k, wf_subframe **out,
+                                weft_error *err) {
+    const subframes *s = run->source;
+    if (s->refined.units) return open_stack(run, k, out, err);
+    const wf_subframe_ref *ref = shown_at(run, k);
+    return ref->path ? open_file(run, ref, out, err) : WEFT_OK;
 }
 
 /* Whole pictures in memory at once, where a format cannot be read by chunks. */

@@ -69,6 +69,12 @@ static bool describe(writer *w) {
         fine = !exr_attr_set_timecode(w->exr, w->index, "timeCode", &label);
     if (fine && p->attribute[0])
         fine = !exr_attr_set_string(w->exr, w->index, p->attribute[0], p->attribute[1]);
+    if (fine && p->region) {
+        const wf_box *r = p->region;
+        exr_attr_box2i_t box;
+        box.min.x = r->x0, box.min.y = r->y0, box.max.x = r->x1 - 1, box.max.y = r->y1 - 1;
+        fine = !exr_attr_set_box2i(w->exr, w->index, "weft:region", &box);
+    }
     exr_attr_chromaticities_t colors;
     if (fine && p->chromaticities) {
         memcpy(&colors, p->chromaticities, sizeof colors);

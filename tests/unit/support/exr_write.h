@@ -20,6 +20,7 @@ typedef struct exr_part {
     uint32_t timecode;           /* timeCode, as convert/job/timecode.h packs it; 0: none */
     float pixel_aspect;          /* 0: 1 */
     const char *attribute[2];    /* name and value of a text; NULL: none */
+    const wf_box *region; /* weft:region, as a box2i of these half-open bounds; NULL: none */
     const float *chromaticities; /* x, y of red, green, blue, white; NULL: none */
     /* Value of a channel at a pixel of the data window. */
     float (*value)(const void *user, int channel, int x, int y);

@@ -1,0 +1,129 @@
+/* weft:region, read from the header of an EXR file. */
+#include "convert/media/exr_region.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST_NAME = 256, MOST_ATTRIBUTES = 4096, LONGEST_TEXT = 128 };
+
+/* An attribute: its name and type, and how many bytes of the file its value has. */
+typedef struct attribute {
+    char name[LONGEST_NAME], type[LONGEST_NAME];
+    uint32_t size;
+} attribute;
+
+/* What is looked for; windows are half-open. */
+typedef struct header {
+    wf_box display, data, region;
+    bool has_region, is_box;
+    char text[LONGEST_TEXT]; /* of a region that is text */
+} header;
+
+static bool read_word(FILE *file, char word[LONGEST_NAME]) {
+    for (int i = 0, c; i < LONGEST_NAME; i++) {
+        if ((c = getc(file)) == EOF) return false;
+        word[i] = (char)c;
+        if (!c) return true;
+    }
+    return false;
+}
+
+static bool read_number(FILE *file, uint32_t *number) {
+    uint8_t b[4];
+    if (fread(b, 1, 4, file) != 4) return false;
+    *number =
+        (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+    return true;
+}
+
+/* False at the header's end, which an empty name is, and where it is cut off. */
+static bool next_attribute(FILE *file, attribute *a) {
+    return read_word(file, a->name) && *a->name && read_word(file, a->type) &&
+           read_number(file, &a->size);
+}
+
+static bool is(const attribute *a, const char *name, const char *type) {
+    return !strcmp(a->name, name) && !strcmp(a->type, type);
+}
+
+static bool read_box(FILE *file, wf_box *box) {
+    uint32_t n[4];
+    for (int i = 0; i < 4; i++)
+        if (!read_number(file, &n[i])) return false;
+    *box = (wf_box){(int)n[0], (int)n[1], (int)n[2] + 1, (int)n[3] + 1};
+    return true;
+}
+
+static bool read_text(FILE *file, uint32_t size, char text[LONGEST_TEXT]) {
+    if (size >= LONGEST_TEXT || fread(text, 1, size, file) != size) return false;
+    text[size] = '\0';
+    return true;
+}
+
+static bool skip(FILE *file, uint32_t size) {
+    return !fseeko(file, (off_t)size, SEEK_CUR);
+}
+
+static bool take_region(FILE *file, const attribute *a, header *h) {
+    h->has_region = true;
+    h->is_box = is(a, a->name, "box2i") && a->size == 16;
+    if (h->is_box) return read_box(file, &h->region);
+    return is(a, a->name, "string") ? read_text(file, a->size, h->text) : skip(file, a->size);
+}
+
+static bool take(FILE *file, const attribute *a, header *h) {
+    if (is(a, "displayWindow", "box2i") && a->size == 16) return read_box(file, &h->display);
+    if (is(a, "dataWindow", "box2i") && a->size == 16) return read_box(file, &h->data);
+    if (!strcmp(a->name, "weft:region")) return take_region(file, a, h);
+    return skip(file, a->size);
+}
+
+static void read_header(FILE *file, header *h) {
+    uint32_t magic, version;
+    attribute a;
+    if (!read_number(file, &magic) || magic != 20000630 || !read_number(file, &version)) return;
+    for (int i = 0; i < MOST_ATTRIBUTES && next_attribute(file, &a); i++)
+        if (!take(file, &a, h)) return;
+}
+
+/* From the display window's corner. */
+static bool settle(header *h) {
+    int x = h->display.x0, y = h->display.y0;
+    wf_box *r = &h->region;
+    if (!h->is_box) {
+        char rest;
+        return sscanf(h->text, "%d ,%d ,%d ,%d%c", &r->x0, &r->y0, &r->x1, &r->y1, &rest) == 4;
+    }
+    *r = (wf_box){r->x0 - x, r->y0 - y, r->x1 - x, r->y1 - y};
+    return true;
+}
+
+/* Whether it has a pixel that the file could have. */
+static bool meets(const header *h) {
+    int x0 = h->data.x0 < h->display.x0 ? h->data.x0 - h->display.x0 : 0;
+    int y0 = h->data.y0 < h->display.y0 ? h->data.y0 - h->display.y0 : 0;
+    int x1 = (h->data.x1 > h->display.x1 ? h->data.x1 : h->display.x1) - h->display.x0;
+    int y1 = (h->data.y1 > h->display.y1 ? h->data.y1 : h->display.y1) - h->display.y0;
+    const wf_box *r = &h->region;
+    return r->x0 < r->x1 && r->y0 < r->y1 && r->x0 < x1 && r->x1 > x0 && r->y0 < y1 &&
+           r->y1 > y0;
+}
+
+weft_status wf_exr_region(const char *path, wf_box *region, bool *has, weft_error *err) {
+    header h = {.has_region = false};
+    *has = false;
+    FILE *file = fopen(path, "rbe");
+    if (!file) return WEFT_OK; /* who opens it to read says why */
+    read_header(file, &h);
+    fclose(file);
+    if (!h.has_region) return WEFT_OK;
+    if (!settle(&h) || !meets(&h))
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%s: its weft:region is no rectangle of its pixels; it is a box2i, or text "
+            "such as 0,0,%d,%d for all of it",
+            path, h.display.x1 - h.display.x0, h.display.y1 - h.display.y0);
+    *region = h.region;
+    *has = true;
+    return WEFT_OK;
+}
