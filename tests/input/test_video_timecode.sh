@@ -43,4 +43,31 @@ coded none.mpg 25 -c:v mpeg2video
 check "none" begins 00000000 none.mpg
 check "is not told" value "'timecode' not in d['input']"
 
+# time_code FROM TO HH:MM:SS:FF DROP: an SEI of that (Rec. ITU-T H.265, D.2.27) before the first picture of HEVC.
+time_code()
+{
+    python3 - "$@" <<'P'
+import sys
+h, m, s, f = map(int, sys.argv[3].split(":"))
+drop = int(sys.argv[4])
+bits = "0110" + format(4 * drop, "05b") + "10" + str(drop)
+bits += format(f, "09b") + format(s, "06b") + format(m, "06b") + format(h, "05b") + "00000" + "1"
+bits += "0" * (-len(bits) % 8)
+unit = bytes([39 << 1, 1, 136, len(bits) // 8]) + int(bits, 2).to_bytes(len(bits) // 8, "big") + b"\x80"
+data = open(sys.argv[1], "rb").read()
+first = next(at for at in range(len(data)) if data[at:at + 3] == b"\0\0\1" and data[at + 3] >> 1 < 32)
+open(sys.argv[2], "wb").write(data[:first] + b"\0\0\1" + unit.replace(b"\0\0", b"\0\0\3") + data[first:])
+P
+}
+if ffmpeg -v error -encoders | grep -q libx265; then
+    coded plain.hevc 25 -c:v libx265 -x265-params log-level=error:bframes=0
+    time_code plain.hevc sei.hevc 10:11:12:13 0
+    check "SEI of HEVC" begins 10111213 sei.hevc
+    check "is told" value "d['input']['timecode'] == {'value': '10:11:12:13', 'reason': 'file'}"
+    quiet_ffmpeg -r 25 -i sei.hevc -c copy sei.mp4
+    check "in MP4" begins 10111213 sei.mp4
+else
+    skip_part "no libx265"
+fi
+
 finish

@@ -102,8 +102,8 @@ void wf_libav_mend_again(wf_libav_reading *reading); /* it has gone to another p
 int64_t wf_libav_stated_packets(const wf_libav_reading *reading);
 double wf_libav_stated_length_s(const wf_libav_reading *reading);
 
-/* With the first frame in hand: fills info.timecode and its rate, of a track, a tag or MPEG's
- * first group of pictures. (libav_timecode.c) */
+/* With the first frame in hand: fills info.timecode and its rate, of a track, a tag, the
+ * first frame (SEI) or MPEG's first group of pictures. (libav_timecode.c) */
 void wf_libav_timecode(wf_video *video);
 
 /* wf_video_kind.seek: by the keyframe at or before the picture, where the listed times tell

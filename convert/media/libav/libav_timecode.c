@@ -37,12 +37,24 @@ static bool read_group(const AVFrame *frame, char text[AV_TIMECODE_STR_SIZE]) {
     return strspn(text, "0:;") < strlen(text);
 }
 
+/* SEI of H.264 and HEVC, and DV's packs, as SMPTE ST 12-1 has them in bits: how many there are,
+ * and each, of which the first is the frame's. */
+static bool read_coded(const wf_libav_reading *r, char text[AV_TIMECODE_STR_SIZE]) {
+    const AVFrameSideData *said = av_frame_get_side_data(r->frame, AV_FRAME_DATA_S12M_TIMECODE);
+    if (!said || said->size < 2 * sizeof(uint32_t)) return false;
+    const uint32_t *words = (const uint32_t *)(const void *)said->data;
+    if (!words[0]) return false;
+    av_timecode_make_smpte_tc_string2(text, r->format->streams[r->stream]->avg_frame_rate,
+                                      words[1], 0, 0);
+    return true;
+}
+
 void wf_libav_timecode(wf_video *v) {
     const wf_libav_reading *r = v->state;
     const AVStream *track = timecode_track(r->format);
-    char group[AV_TIMECODE_STR_SIZE] = "";
+    char coded[AV_TIMECODE_STR_SIZE] = "";
     const char *found = track ? tag_of(track->metadata) : any_tag(r->format, r->stream);
-    if (!found && read_group(r->frame, group)) found = group;
+    if (!found && (read_coded(r, coded) || read_group(r->frame, coded))) found = coded;
     snprintf(v->info.timecode, sizeof v->info.timecode, "%s", found ? found : "");
     AVRational rate = track ? track->avg_frame_rate : (AVRational){0, 0};
     if (rate.num > 0 && rate.den > 0) v->info.timecode_rate = wf_ratio(rate.num, rate.den);
