@@ -380,7 +380,8 @@ weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part,
         return wf_fail(
             err, WEFT_FAILED,
             "%s: it has subsampled channels or chroma under DWA compression, which weft does "
-            "not read; write it with ZIP",
+            "not read; write it with ZIP, or make one that is read with 'exr2aces IN OUT.exr' "
+            "of the package openexr, which keeps its colors",
             s->path);
     return status;
 }

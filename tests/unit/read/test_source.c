@@ -363,6 +363,29 @@ static void luminance_and_chroma(void **state) {
     refused(path, -1, &plain, "8x8");
 }
 
+/* OpenEXRCore 3.1 decodes no DWA, and OpenImageIO no subsampled channels. */
+static void chroma_under_dwa(void **state) {
+    (void)state;
+    static const float ratio[2] = {0.5f, -0.75f};
+    exr_part p = part_of(64, 48);
+    p.channels = "BY/2 RY/2 Y";
+    p.value = luminance_chroma, p.user = ratio;
+    p.compression = EXR_COMPRESSION_PIZ; /* as many lines a chunk */
+    const char *path = temporary("dwa_chroma.exr");
+    assert_true(exr_write(path, &p, 1));
+    uint8_t bytes[4096];
+    FILE *file = fopen(path, "r+b");
+    assert_non_null(file);
+    size_t got = fread(bytes, 1, sizeof bytes, file);
+    static const char name[] = "compression\0compression\0\1\0\0"; /* and its 0 */
+    const uint8_t *at = memmem(bytes, got, name, sizeof name);
+    assert_non_null(at);
+    assert_false(fseek(file, (long)(at - bytes) + (long)sizeof name, SEEK_SET));
+    fputc(EXR_COMPRESSION_DWAA, file);
+    assert_false(fclose(file));
+    refused(path, -1, &plain, "exr2aces IN OUT.exr");
+}
+
 static float spoiled_chroma(const void *user, int channel, int x, int y) {
     return channel == 1 && x == 20 && y == 12 ? NAN : luminance_chroma(user, channel, x, y);
 }
@@ -848,6 +871,7 @@ int main(void) {
         cmocka_unit_test(parts),
         cmocka_unit_test(subsampled_beside_the_picture),
         cmocka_unit_test(luminance_and_chroma),
+        cmocka_unit_test(chroma_under_dwa),
         cmocka_unit_test(chroma_is_interpolated),
         cmocka_unit_test(bad_chroma_does_not_spread),
         cmocka_unit_test(luma_of_the_files_primaries),
