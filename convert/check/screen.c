@@ -34,8 +34,8 @@ const char *wf_display_name(wf_display_kind kind) {
 
 wf_viewing wf_screen_viewing(const wf_video_info *info, const wf_measure_options *options,
                              double hz) {
-    double heights = info->lines > 608 ? 3 : 6;
-    double white_cd_m2 = info->transfer == WF_TRANSFER_BT1886 ? 100 : 203;
+    double heights = wf_viewing_usual_heights(info->lines);
+    double white_cd_m2 = wf_viewing_usual_white_cd_m2(info->transfer != WF_TRANSFER_BT1886);
     return (wf_viewing){
         .distance_heights = options->view_heights > 0 ? options->view_heights : heights,
         .white_cd_m2 = options->peak_cd_m2 > 0 ? options->peak_cd_m2 : white_cd_m2,

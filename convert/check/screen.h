@@ -29,8 +29,7 @@ weft_status wf_screen_show(wf_screen *screen, const wf_signal *frame, const wf_s
 const wf_video_info *wf_screen_info(const wf_screen *screen);
 
 /* From where, and how bright, pictures of this video are seen, for a modulation of so many Hz:
- * as asked for, or usually from 6 heights with up to 608 lines, from 3 with more, with white at
- * 100 cd/m2, and of PQ and HLG at 203. */
+ * as asked for or usual. */
 wf_viewing wf_screen_viewing(const wf_video_info *info, const wf_measure_options *options,
                              double hz);
 

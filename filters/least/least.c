@@ -95,14 +95,14 @@ static size_t most_segments(const wf_least *least) {
 size_t wf_least_scratch_bytes(const wf_least *least) {
     size_t tile = tile_samples(least) * sizeof(double);
     if (!bounded(least)) return tile;
-    return 5 * tile + pack_samples(least) * sizeof(double) +
+    return 6 * tile + pack_samples(least) * sizeof(double) +
            most_segments(least) * sizeof(wf_least_segment) +
            (size_t)least->desc.lines * (1 + 5 * sizeof(double));
 }
 
 wf_least_scratch *wf_least_scratch_new(const wf_least *least) {
     wf_least_scratch *s = calloc(1, sizeof *s);
-    size_t tile = tile_samples(least), tiles = bounded(least) ? 5 : 1;
+    size_t tile = tile_samples(least), tiles = bounded(least) ? 6 : 1;
     if (!s) return NULL;
     s->l = calloc(tiles * tile, sizeof *s->l);
     bool good = s->l;
@@ -122,6 +122,7 @@ wf_least_scratch *wf_least_scratch_new(const wf_least *least) {
     s->base = s->s + tile;
     s->tension = s->base + tile;
     s->press = s->tension + tile;
+    s->limit = s->press + tile;
     return s;
 }
 
@@ -177,13 +178,32 @@ static void store(const wf_least *least, const wf_least_scratch *s, int first, i
     }
 }
 
+/* Of a limit that all pixels have one line is kept. */
+static void load_limits(const wf_least *least, wf_least_scratch *s, int first, int columns,
+                        size_t stride, const float *limits) {
+    s->limit_step = limits ? WIDTH : 0;
+    for (int i = 0; i < WIDTH && !limits; i++) s->limit[i] = least->desc.limit;
+    for (int j = 0; j < least->desc.lines && limits; j++) {
+        const float *line = limits + (size_t)j * stride + first;
+        double *row = s->limit + j * WIDTH;
+        for (int i = 0; i < WIDTH; i++) row[i] = (double)line[i < columns ? i : columns - 1];
+    }
+}
+
 void wf_least_tile(const wf_least *least, wf_least_scratch *s, int tile, int width,
                    size_t stride, const float *from, float *to, wf_least_counts *counts) {
+    wf_least_tile_within(least, s, tile, width, stride, from, NULL, to, counts);
+}
+
+void wf_least_tile_within(const wf_least *least, wf_least_scratch *s, int tile, int width,
+                          size_t stride, const float *from, const float *limits, float *to,
+                          wf_least_counts *counts) {
     int first = tile * WIDTH, columns = width - first < WIDTH ? width - first : WIDTH;
     const wf_least_factor f = {least->f1, least->f2, least->inverse, least->desc.lines};
     size_t bytes = tile_samples(least) * sizeof(double);
     load(least, s, first, columns, stride, from);
     if (bounded(least)) {
+        load_limits(least, s, first, columns, stride, limits);
         counts->clipped += clip(least, s->l, columns);
         memcpy(s->s, s->l, bytes);
     }

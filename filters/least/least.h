@@ -50,6 +50,12 @@ enum { wf_least_tile_px = 32 };
 void wf_least_tile(const wf_least *least, wf_least_scratch *scratch, int tile, int width,
                    size_t stride, const float *from, float *to, wf_least_counts *counts);
 
+/* The same where each pixel has a limit of its own: limits[lines][stride], above 0, beside
+ * `from`. The description's limit only has to be finite. */
+void wf_least_tile_within(const wf_least *least, wf_least_scratch *scratch, int tile, int width,
+                          size_t stride, const float *from, const float *limits, float *to,
+                          wf_least_counts *counts);
+
 /* For tests: the multipliers of the columns of the tile solved last: of b, up less down, and of
  * the bounds 0 and most, up less down. Column i of line j is [j * wf_least_tile_px + i]. */
 const double *wf_least_tension(const wf_least_scratch *scratch);

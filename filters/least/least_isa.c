@@ -37,15 +37,16 @@ static void smooth(const wf_least_factor *f, double *x) {
     }
 }
 
-static void look(const double *x, int lines, double limit, double most, double *excess) {
+static void look(const wf_least_claim *c, double *excess) {
     const int width = WF_LEAST_COLUMNS;
-    for (int i = 0; i < width; i++) excess[i] = -limit;
-    for (int j = 0; j < lines; j++) {
-        const double *row = x + j * width, *above = j ? row - width : row + width;
-        const double *below = j < lines - 1 ? row + width : row - width;
+    for (int i = 0; i < width; i++) excess[i] = -HUGE_VAL;
+    for (int j = 0; j < c->lines; j++) {
+        const double *row = c->l + j * width, *above = j ? row - width : row + width;
+        const double *below = j < c->lines - 1 ? row + width : row - width;
+        const double *limit = c->limit + j * c->limit_step;
         for (int i = 0; i < width; i++) {
             double b = 0.5 * row[i] - 0.25 * (above[i] + below[i]);
-            double over = fabs(b) - limit, high = row[i] - most, low = -row[i];
+            double over = fabs(b) - limit[i], high = row[i] - c->most, low = -row[i];
             over = over > high ? over : high;
             over = over > low ? over : low;
             excess[i] = excess[i] > over ? excess[i] : over;
@@ -70,11 +71,12 @@ static void add_slacks(const wf_least_claim *c, int j, double *restrict gap) {
     const double *press = c->press + j * width;
     const double *above = j ? row - width : row + width;
     const double *below = j < c->lines - 1 ? row + width : row - width;
+    const double *limit = c->limit + j * c->limit_step;
     const double most = c->most < 1e300 ? c->most : 0;
     for (int i = 0; i < width; i++) {
         double b = 0.5 * row[i] - 0.25 * (above[i] + below[i]);
         double room = press[i] > 0 ? most - row[i] : -row[i];
-        gap[i] += 2 * (c->limit * fabs(tension[i]) - tension[i] * b + press[i] * room);
+        gap[i] += 2 * (limit[i] * fabs(tension[i]) - tension[i] * b + press[i] * room);
     }
 }
 

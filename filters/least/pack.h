@@ -74,15 +74,17 @@ typedef struct wf_least_factor {
 typedef struct wf_least_claim {
     const double *s, *l, *tension, *press;
     int lines;
-    double weight, limit, most;
+    double weight, most;
+    const double *limit; /* of |b|: line j has limit[j * limit_step + column] */
+    ptrdiff_t limit_step;
 } wf_least_claim;
 
 typedef struct wf_least_ops {
     /* Solves F D F' x = x in place, [lines][WF_LEAST_COLUMNS]. */
     void (*smooth)(const wf_least_factor *factor, double *x);
-    /* By how much |b| exceeds `limit`, or x leaves 0 .. most, at most in each column; <= 0
-     * where it does not. */
-    void (*look)(const double *x, int lines, double limit, double most, double *excess);
+    /* By how much |b| of a claim's l exceeds its limit, or l leaves 0 .. most, at most in each
+     * column; <= 0 where it does not. */
+    void (*look)(const wf_least_claim *claim, double *excess);
     /* How much more than the least sum each column of l may cost, by its multipliers: the sums
      * of slack times multiplier, twice, and of what is left of the gradient, squared. */
     void (*prove)(const wf_least_claim *claim, double *gap);

@@ -6,18 +6,22 @@
 
 enum { WIDTH = WF_LEAST_COLUMNS };
 
+wf_least_claim wf_least_claim_of(const wf_least *least, const wf_least_scratch *s) {
+    return (wf_least_claim){.s = s->s,
+                            .l = s->l,
+                            .tension = s->tension,
+                            .press = s->press,
+                            .lines = least->desc.lines,
+                            .weight = least->desc.weight,
+                            .most = least->desc.most,
+                            .limit = s->limit,
+                            .limit_step = s->limit_step};
+}
+
 void wf_least_judge(const wf_least *least, const wf_least_scratch *s, double *excess,
                     double *gap) {
-    const wf_least_desc *d = &least->desc;
-    const wf_least_claim claim = {.s = s->s,
-                                  .l = s->l,
-                                  .tension = s->tension,
-                                  .press = s->press,
-                                  .lines = d->lines,
-                                  .weight = d->weight,
-                                  .limit = d->limit,
-                                  .most = d->most};
-    least->ops->look(s->l, d->lines, d->limit, d->most, excess);
+    const wf_least_claim claim = wf_least_claim_of(least, s);
+    least->ops->look(&claim, excess);
     least->ops->prove(&claim, gap);
     for (int i = 0; i < WIDTH; i++) gap[i] /= s->scale[i] * s->scale[i];
 }

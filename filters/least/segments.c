@@ -27,6 +27,10 @@ enum { WIDTH = WF_LEAST_COLUMNS, LANES = WF_LEAST_LANES };
 /* How often a column is solved: the last time all of it at once. */
 enum { ROUNDS = 8 };
 
+static double limit_at(const wf_least_scratch *s, int j, int column) {
+    return s->limit[j * s->limit_step + column];
+}
+
 static double b_at(const wf_least *least, const double *x, int j) {
     int lines = least->desc.lines, above = j ? j - 1 : 1, below = j < lines - 1 ? j + 1 : j - 1;
     return 0.5 * x[j * WIDTH] - 0.25 * (x[above * WIDTH] + x[below * WIDTH]);
@@ -40,7 +44,7 @@ static double find_breaks(const wf_least *least, wf_least_scratch *s, int column
     double worst = 0;
     for (int j = 0; j < least->desc.lines; j++) {
         double l = x[j * WIDTH];
-        double over = fabs(b_at(least, x, j)) - least->desc.limit;
+        double over = fabs(b_at(least, x, j)) - limit_at(s, j, column);
         over = fmax(over, fmax(-l, l - least->desc.most));
         s->breaks[j] = s->breaks[j] || over > held;
         worst = fmax(worst, over);
@@ -60,11 +64,19 @@ static void add_segment(const wf_least *least, wf_least_scratch *s, int column, 
         s->segments[s->segment_count++] = (wf_least_segment){column, first, end};
 }
 
+/* The least limit of a column. */
+static double least_limit(const wf_least *least, const wf_least_scratch *s, int column) {
+    double limit = limit_at(s, 0, column);
+    for (int j = 1; s->limit_step && j < least->desc.lines; j++)
+        limit = fmin(limit, limit_at(s, j, column));
+    return limit;
+}
+
 /* The lines about those that break a bound: a step of height h is spread over the square root
  * of h / limit lines. */
 static void find_segments(const wf_least *least, wf_least_scratch *s, int column, double worst,
                           int round) {
-    int margin = (5 + (int)(2 * sqrt(worst / least->desc.limit))) << round;
+    int margin = (5 + (int)(2 * sqrt(worst / least_limit(least, s, column)))) << round;
     if (round > ROUNDS - 4 || margin > least->desc.lines) margin = least->desc.lines;
     for (int j = 0; j < least->desc.lines; j++)
         if (s->breaks[j]) add_segment(least, s, column, j, j + 1, margin);
@@ -122,8 +134,9 @@ static void put_form(const wf_least *least, wf_least_pack *p, const wf_least_seg
 }
 
 /* b of a line counts where both its neighbors are in the segment. */
-static void put_bounds(const wf_least *least, wf_least_pack *p, const wf_least_segment *g,
+static void put_bounds(const wf_least *least, wf_least_scratch *s, const wf_least_segment *g,
                        int lane) {
+    wf_least_pack *p = &s->pack;
     int rows = g->end - g->first, lines = least->desc.lines;
     for (int row = 0; row < rows; row++) {
         int j = g->first + row;
@@ -131,7 +144,7 @@ static void put_bounds(const wf_least *least, wf_least_pack *p, const wf_least_s
         *cell(p, WF_LEAST_ABOVE, row, lane) = bound ? wf_least_b(lines, j, j - 1) : 0;
         *cell(p, WF_LEAST_BELOW, row, lane) = bound ? wf_least_b(lines, j, j + 1) : 0;
         *cell(p, WF_LEAST_BOUND, row, lane) = bound;
-        *cell(p, WF_LEAST_LIMIT, row, lane) = bound ? least->desc.limit : 1;
+        *cell(p, WF_LEAST_LIMIT, row, lane) = bound ? limit_at(s, j, g->column) : 1;
         *cell(p, WF_LEAST_OWN, row, lane) = 1;
     }
 }
@@ -142,16 +155,16 @@ static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least
     wf_least_pack *p = &s->pack;
     const double *base = s->base + g->column;
     int rows = g->end - g->first;
-    double mean = 0, most = p->most[lane], limit = least->desc.limit, part = 1, b = 0;
+    double mean = 0, most = p->most[lane], part = 1;
     for (int j = g->first; j < g->end; j++) mean += base[j * WIDTH] / rows;
     mean = fmin(fmax(mean, 0.05 * fmin(most, 1)), 0.95 * most);
     for (int j = g->first; j < g->end; j++) {
         double off = base[j * WIDTH] - mean;
-        b = fmax(b, fabs(b_at(least, base, j)));
+        double b = fabs(b_at(least, base, j));
+        if (b > 0) part = fmin(part, 0.7 * limit_at(s, j, g->column) / b);
         if (off < 0) part = fmin(part, 0.9 * mean / -off);
         if (off > 0) part = fmin(part, 0.9 * (most - mean) / off);
     }
-    if (b > 0) part = fmin(part, 0.7 * limit / b);
     double mu = 0;
     for (int j = g->first; j < g->end; j++) {
         double off = (1 - part) * (base[j * WIDTH] - mean);
@@ -162,7 +175,8 @@ static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least
         double at = base[(g->first + row) * WIDTH], l = mean + part * (at - mean);
         *cell(p, WF_LEAST_BASE, row, lane) = at;
         *cell(p, WF_LEAST_L, row, lane) = l;
-        *cell(p, WF_LEAST_Z, row, lane) = *cell(p, WF_LEAST_Z + 1, row, lane) = mu / limit;
+        *cell(p, WF_LEAST_Z, row, lane) = *cell(p, WF_LEAST_Z + 1, row, lane) =
+            mu / limit_at(s, g->first + row, g->column);
         *cell(p, WF_LEAST_Z + 2, row, lane) = mu / l;
         *cell(p, WF_LEAST_Z + 3, row, lane) = mu / (most - l);
     }
@@ -215,7 +229,7 @@ static void solve_together(const wf_least *least, wf_least_scratch *s,
         p->tolerance[lane] = SOLVED * scale * scale * rows / least->desc.lines;
         p->most[lane] = fmin(least->desc.most, FAR * scale);
         put_form(least, p, &g[own], lane);
-        put_bounds(least, p, &g[own], lane);
+        put_bounds(least, s, &g[own], lane);
         put_start(least, s, &g[own], lane);
         clear_lane(p, lane, rows);
     }
@@ -260,7 +274,8 @@ static void solve_again(const wf_least *least, wf_least_scratch *s, int column, 
 
 static bool is_proved(const wf_least *least, const wf_least_scratch *s, int column,
                       const double *excess, const double *gap) {
-    double coarse = fmax(1, FINE_LIMIT * sqrt(s->scale[column]) / least->desc.limit);
+    double coarse =
+        fmax(1, FINE_LIMIT * sqrt(s->scale[column]) / least_limit(least, s, column));
     return excess[column] <= HELD * s->scale[column] && gap[column] <= PROVED * coarse * coarse;
 }
 
@@ -298,7 +313,8 @@ void wf_least_hold(const wf_least *least, wf_least_scratch *s, int columns,
     const wf_least_desc *d = &least->desc;
     size_t samples = (size_t)d->lines * WIDTH;
     bool any = false;
-    least->ops->look(s->l, d->lines, d->limit, d->most, broken);
+    const wf_least_claim claim = wf_least_claim_of(least, s);
+    least->ops->look(&claim, broken);
     for (int i = 0; i < columns; i++) any |= broken[i] > HELD;
     if (!any) return;
     memcpy(s->base, s->l, samples * sizeof *s->l);

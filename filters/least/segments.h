@@ -22,6 +22,8 @@ struct wf_least_scratch {
     double *l;                      /* S, then L without bounds, then L */
     double *s, *base;               /* S; L without bounds */
     double *tension, *press;        /* multipliers */
+    double *limit;                  /* of |b|: line j has limit[j * limit_step + column] */
+    ptrdiff_t limit_step;           /* 0: it is one line, which all have */
     double scale[WF_LEAST_COLUMNS]; /* max(1, max S) */
     bool *breaks;                   /* [lines] of a column: its bounds are broken there */
     double *settling;               /* [5][lines] */
@@ -41,6 +43,9 @@ static inline double wf_least_b(int lines, int row, int column) {
 
 /* Column j + right of line j of I + weight B'B; right: 0 to 2. */
 double wf_least_entry(const wf_least_desc *desc, int j, int right);
+
+/* What is to be proved of the tile. (proof.c) */
+wf_least_claim wf_least_claim_of(const wf_least *least, const wf_least_scratch *scratch);
 
 /* (proof.c) By how much each column of the tile breaks its bounds at most, and how much more
  * than the least sum it may cost, over scale squared. */

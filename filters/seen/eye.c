@@ -18,6 +18,14 @@ double wf_viewing_lines_degree(const wf_viewing *v) {
     return 1 / degrees(1 / (v->distance_heights * v->lines));
 }
 
+double wf_viewing_usual_heights(int lines) {
+    return lines > 608 ? 3 : 6;
+}
+
+double wf_viewing_usual_white_cd_m2(bool high_dynamic_range) {
+    return high_dynamic_range ? 203 : 100;
+}
+
 static double picture_degree2(const wf_viewing *v) {
     double half = 0.5 / v->distance_heights;
     double aspect = v->width_px * v->pixel_aspect / v->lines;

@@ -3,6 +3,8 @@
 #ifndef WF_FILTERS_SEEN_EYE_H
 #define WF_FILTERS_SEEN_EYE_H
 
+#include <stdbool.h>
+
 /* Where a picture is looked at from. */
 typedef struct wf_viewing {
     double distance_heights; /* from the eye to the picture, in heights of the picture */
@@ -13,6 +15,11 @@ typedef struct wf_viewing {
 } wf_viewing;
 
 double wf_viewing_lines_degree(const wf_viewing *v); /* in the middle of the picture */
+
+/* What is usual where nothing is said: 6 heights for pictures of up to 608 lines, else 3; white
+ * at 100 cd/m2, and of PQ and HLG at 203 (Report ITU-R BT.2408). */
+double wf_viewing_usual_heights(int lines);
+double wf_viewing_usual_white_cd_m2(bool high_dynamic_range);
 
 enum {
     WF_EYE_BANDS = 5,

@@ -270,17 +270,22 @@ void wf_seen_jnd(wf_seen *s, const float *real, const float *imaginary, const fl
 }
 
 /* Where nothing is seen of any modulation it is not bounded, to speak of. */
-#define LEAST_SENSITIVITY 1e-6
+#define LEAST_SENSITIVITY 1e-6f
 
 void wf_seen_bound(wf_seen *s, const float *light, double jnd, float *bound) {
     size_t width = (size_t)s->viewing.width_px;
+    float white = (float)s->viewing.white_cd_m2, j = (float)jnd;
     prepare(s, &s->local, light, 0);
+    for (size_t x = 0; x < width; x++) s->part[x] = 1;
     for (int y = 0; y < s->viewing.lines; y++, bound += width) {
         luminance_of_line(s, light, y);
+        memset(s->sum, 0, width * sizeof *s->sum);
+        for (int band = 0; band < WF_EYE_BANDS; band++)
+            wf_seen_ops_best()->add_band(s->sum, s->part, s->luminance, &s->eye, band, white,
+                                         width);
         for (size_t x = 0; x < width; x++) {
-            double mean = (double)s->luminance[x];
-            double whole = wf_eye_sensitivity(&s->eye, 0, mean * s->viewing.white_cd_m2);
-            bound[x] = (float)(jnd * mean / fmax(whole, LEAST_SENSITIVITY));
+            float whole = s->sum[x] > LEAST_SENSITIVITY ? s->sum[x] : LEAST_SENSITIVITY;
+            bound[x] = j * s->luminance[x] / whole;
         }
     }
 }

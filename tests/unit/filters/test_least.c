@@ -120,8 +120,10 @@ static double within(double x, double low, double high) {
     return fmin(fmax(x, low), high);
 }
 
-/* min 1/2 |L - S|^2 + MU/2 |BL|^2 + (v in bounds), v = (BL, L). False: it never stands. */
-static bool other_solver(const wf_least_desc *d, const double *given, double *l) {
+/* min 1/2 |L - S|^2 + MU/2 |BL|^2 + (v in bounds), v = (BL, L). False: it never stands. limit:
+ * of each line, or NULL: the description's. */
+static bool other_solver(const wf_least_desc *d, const double *limit, const double *given,
+                         double *l) {
     static double b[LINES * LINES], a[LINES * LINES], v[2 * LINES], u[2 * LINES], s[LINES];
     int n = d->lines;
     double rho_b = 0.5 / d->limit, rho_l = 1;
@@ -146,8 +148,8 @@ static bool other_solver(const wf_least_desc *d, const double *given, double *l)
         solve_factored(a, n, l);
         for (int j = 0; j < 2 * n; j++) {
             double x = j < n ? flicker_at(l, n, j) : l[j - n];
-            double to =
-                j < n ? within(x + u[j], -d->limit, d->limit) : within(x + u[j], 0, d->most);
+            double e = j < n && limit ? limit[j] : d->limit;
+            double to = j < n ? within(x + u[j], -e, e) : within(x + u[j], 0, d->most);
             change = fmax(change, fmax(fabs(to - v[j]), fabs(x - to)));
             u[j] += x - to;
             v[j] = to;
@@ -201,11 +203,11 @@ static void column_of(const float *tile, int lines, int i, double *column) {
 static const double weights[] = {0, 1, 4, 30}, limits[] = {0.1, 0.02, 0.006};
 
 /* The largest difference of a column, over max(1, max S); 0 where the other does not stand. */
-static double difference(const wf_least_desc *d, const float *s, const solved *got, int i,
-                         int *stood) {
+static double difference(const wf_least_desc *d, const double *limit, const float *s,
+                         const solved *got, int i, int *stood) {
     double column[LINES], other[LINES], scale = 1, worst = 0;
     column_of(s, LINES, i, column);
-    if (!other_solver(d, column, other)) return 0;
+    if (!other_solver(d, limit, column, other)) return 0;
     ++*stood;
     for (int j = 0; j < LINES; j++) scale = fmax(scale, fabs(column[j]));
     for (int j = 0; j < LINES; j++)
@@ -222,8 +224,52 @@ static void test_other_solver_agrees(void **state) {
         float *s = columns_of(n / 12, LINES, 7);
         solved got = solve(&d, s);
         for (int i = 0; i < 2; i++, tried++)
-            worst = fmax(worst, difference(&d, s, &got, i, &stood));
+            worst = fmax(worst, difference(&d, NULL, s, &got, i, &stood));
         release(&got);
+        free(s);
+    }
+    print_message("off by %.2g, %d of %d columns\n", worst, stood, tried);
+    assert_true(worst < 1e-5 && stood > tried * 8 / 10);
+}
+
+/* ---- Limits of pixels ---- */
+
+/* The same where each pixel has its own limit: of one that all have, bit for bit. */
+static void test_limits_of_pixels(void **state) {
+    (void)state;
+    int stood = 0, tried = 0;
+    double worst = 0;
+    for (int n = 0; n < KINDS * 4; n++) {
+        const wf_least_desc d = {LINES, weights[n % 4], 0.02, kinds[n / 4].most};
+        float *s = columns_of(n / 4, LINES, 11), *limit = columns_of(n / 4, LINES, 11);
+        uint64_t seed = 3;
+        solved got = solve(&d, s);
+        float *within_it = malloc((size_t)LINES * WIDE * sizeof *within_it);
+        assert_non_null(within_it);
+        for (int k = 0; k < LINES * WIDE; k++) limit[k] = 0.02f;
+        wf_least_tile_within(got.least, got.scratch, 0, WIDE, WIDE, s, limit, within_it,
+                             &got.counts);
+        double most = 0;
+        for (int k = 0; k < LINES * WIDE; k++)
+            most = fmax(most, fabs((double)within_it[k] - (double)got.l[k]));
+        assert_true(most < 1e-6); /* 0.02f is not 0.02 */
+        for (int k = 0; k < LINES * WIDE; k++)
+            limit[k] = (float)(k / WIDE / 9 % 2 ? 0.006 : 0.006 + 0.1 * uniform(&seed));
+        wf_least_tile_within(got.least, got.scratch, 0, WIDE, WIDE, s, limit, got.l,
+                             &got.counts);
+        for (int i = 0; i < 2; i++, tried++) {
+            double of_column[LINES], column[LINES];
+            column_of(limit, LINES, i, of_column);
+            column_of(got.l, LINES, i, column);
+            for (int j = 0; j < LINES; j++)
+                assert_true(fabs(flicker_at(column, LINES, j)) <=
+                            of_column[j] + 2e-7 * fmax(1, column[j]));
+            worst = fmax(worst, difference(&d, of_column, s, &got, i, &stood));
+        }
+        assert_int_equal(got.counts.failed, 0);
+        release(&got);
+        free(within_it);
+        free(limit);
         free(s);
     }
     print_message("off by %.2g, %d of %d columns\n", worst, stood, tried);
@@ -488,6 +534,7 @@ static void test_width_does_not_matter(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_other_solver_agrees),
+        cmocka_unit_test(test_limits_of_pixels),
         cmocka_unit_test(test_dual_proves_it),
         cmocka_unit_test(test_bounds_hold),
         cmocka_unit_test(test_what_holds_stays),

@@ -367,14 +367,23 @@ static double bob_flicker(const double *x, int lines, int j) {
     return 0.5 * x[j * TILE] - 0.25 * (above + below);
 }
 
+static double *limits_of(level_run *r, int lines) {
+    double *limit = tile_of(r, lines);
+    for (int n = 0; n < lines * TILE; n++) limit[n] = level_uniform(r, 0.01, 0.2);
+    return limit;
+}
+
 static void look(level_run *r) {
     int lines = 3 + (int)(r->count % 60);
-    double *x = tile_of(r, lines), excess[TILE];
-    if (!r->plain) wf_least_ops_at(r->level)->look(x, lines, 0.1, 1.5, excess);
+    double *x = tile_of(r, lines), *limit = limits_of(r, lines), excess[TILE];
+    const wf_least_claim c = {
+        .l = x, .lines = lines, .most = 1.5, .limit = limit, .limit_step = TILE};
+    if (!r->plain) wf_least_ops_at(r->level)->look(&c, excess);
     for (int i = 0; r->plain && i < TILE; i++) {
-        excess[i] = -0.1;
+        excess[i] = -INFINITY;
         for (int j = 0; j < lines; j++) {
-            double l = x[j * TILE + i], over = fabs(bob_flicker(x + i, lines, j)) - 0.1;
+            double l = x[j * TILE + i];
+            double over = fabs(bob_flicker(x + i, lines, j)) - limit[j * TILE + i];
             over = over > l - 1.5 ? over : l - 1.5; /* NaN as the second of two stays */
             over = over > -l ? over : -l;
             excess[i] = excess[i] > over ? excess[i] : over;
@@ -397,7 +406,8 @@ static double plain_gap(const wf_least_claim *c, int i) {
         tension = c->tension[at];
         high = c->press[at] > 0 ? c->press[at] * (c->most - c->l[at]) : 0;
         low = c->press[at] > 0 ? 0 : -c->press[at] * c->l[at];
-        gap += rest * rest + 2 * (high + low + c->limit * fabs(tension)) -
+        gap += rest * rest +
+               2 * (high + low + c->limit[j * c->limit_step + i] * fabs(tension)) -
                2 * tension * bob_flicker(c->l + i, c->lines, j);
     }
     return gap;
@@ -411,8 +421,9 @@ static void prove(level_run *r) {
                               tile_of(r, lines),
                               lines,
                               4,
-                              0.1,
-                              1};
+                              1,
+                              limits_of(r, lines),
+                              TILE};
     double gap[TILE];
     if (!r->plain) wf_least_ops_at(r->level)->prove(&c, gap);
     for (int i = 0; r->plain && i < TILE; i++) gap[i] = plain_gap(&c, i);
