@@ -152,7 +152,8 @@ weft_status wf_job_check_alpha(const weft_job *job, weft_error *err) {
     const float *behind = job->background;
     const rule rules[] = {
         {writes_alpha && job->command == WF_TRACE,
-         "--alpha-out and --key are for fields, and trace stores samples; give them to render"},
+         "--alpha-out and --key are for fields; trace stores alpha by itself where the scene "
+         "has it"},
         {writes_alpha && wf_ratio_given(job->error),
          "--error looks at color alone: with --alpha-out or --key give --samples"},
         {writes_alpha && (behind[0] != 0 || behind[1] != 0 || behind[2] != 0),

@@ -22,6 +22,7 @@ typedef struct tracing {
         *sampling[MOST_UNITS]; /* one for each unit of a frame; the first is the source's */
     double late[MOST_UNITS];   /* of the units: field periods after the frame's first field */
     int units, most_units;     /* of this frame; of any */
+    bool alpha;                /* it is stored, as the scene has it */
     wf_deep_writer *file;
 } tracing;
 
@@ -35,7 +36,10 @@ static int units_needed(const weft_job *job) {
 static weft_status make(wf_run *run, tracing *t, weft_error *err) {
     wf_scene_source *source = run->source;
     wf_sampling_desc desc = wf_scene_sampling(run->job, &source->scene);
-    *t = (tracing){.run = run, .source = source, .most_units = units_needed(run->job)};
+    *t = (tracing){.run = run,
+                   .source = source,
+                   .most_units = units_needed(run->job),
+                   .alpha = wf_scene_has_alpha(&source->scene)};
     weft_status status = run->kind->start(run, err);
     if (status) return status;
     t->sampling[0] = source->sampling;
@@ -51,9 +55,10 @@ static void unmake(tracing *t) {
 
 /* ---- Samples ---- */
 
-#define KEPT 6 /* channels of a sample: R G B t x y */
-static const wf_deep_channel kept[KEPT] = {WF_DEEP_R, WF_DEEP_G, WF_DEEP_B,
-                                           WF_DEEP_T, WF_DEEP_X, WF_DEEP_Y};
+#define KEPT 7 /* channels of a sample: R G B t x y, and A where the scene has it */
+static const wf_deep_channel kept[KEPT] = {WF_DEEP_R, WF_DEEP_G, WF_DEEP_B, WF_DEEP_T,
+                                           WF_DEEP_X, WF_DEEP_Y, WF_DEEP_A};
+enum { KEPT_T = 3, KEPT_X = 4 };
 
 /* The samples of one row and unit, in the order of pixels. */
 typedef struct row_samples {
@@ -64,16 +69,17 @@ typedef struct row_samples {
 /* Rows of a frame: their samples, and what becomes of these in the file. */
 typedef struct band {
     int first, rows, units, unit; /* unit: the one in hand */
+    int channels;                 /* that are kept: KEPT, or without A one less */
     double late;      /* of the unit's field: field periods after the frame's first */
     row_samples *row; /* [units][rows] */
     bool failed;
     wf_deep_packed packed[WF_TRACE_ROWS];
 } band;
 
-static bool grow(row_samples *r, size_t more) {
+static bool grow(row_samples *r, int channels, size_t more) {
     if (r->count + more <= r->capacity) return true;
     size_t capacity = 2 * (r->count + more);
-    for (int c = 0; c < KEPT; c++) {
+    for (int c = 0; c < channels; c++) {
         float *grown = realloc(r->v[c], capacity * sizeof *grown);
         if (!grown) return false;
         r->v[c] = grown;
@@ -85,11 +91,13 @@ static bool grow(row_samples *r, size_t more) {
 /* Samples first <= k < end of a block, which are of one row. */
 static bool keep_row(band *b, const wf_samples *s, int j, size_t first, size_t end) {
     row_samples *r = &b->row[b->unit * b->rows + j];
-    const float *const from[KEPT] = {s->rgb[0], s->rgb[1], s->rgb[2], s->t, s->x, s->y};
-    if (!grow(r, end - first)) return false;
-    for (int c = 0; c < KEPT; c++)
+    const float *const from[KEPT] = {s->rgb[0], s->rgb[1], s->rgb[2], s->t,
+                                     s->x,      s->y,      s->alpha};
+    if (!grow(r, b->channels, end - first)) return false;
+    for (int c = 0; c < b->channels; c++)
         memcpy(r->v[c] + r->count, from[c] + first, (end - first) * sizeof(float));
-    for (size_t k = r->count; k < r->count + end - first; k++) r->v[3][k] += (float)b->late;
+    for (size_t k = r->count; k < r->count + end - first; k++)
+        r->v[KEPT_T][k] += (float)b->late;
     r->count += end - first;
     return true;
 }
@@ -112,7 +120,7 @@ static void count_samples(const band *b, int j, int width, int32_t *upto) {
     memset(upto, 0, (size_t)width * sizeof *upto);
     for (int u = 0; u < b->units; u++) {
         const row_samples *r = &b->row[u * b->rows + j];
-        for (size_t k = 0; k < r->count; k++) upto[pixel_of(r->v[4][k], width)]++;
+        for (size_t k = 0; k < r->count; k++) upto[pixel_of(r->v[KEPT_X][k], width)]++;
     }
     for (int i = 1; i < width; i++) upto[i] += upto[i - 1];
 }
@@ -122,9 +130,9 @@ static bool weave(const band *b, int j, int width, wf_deep_line *line) {
     size_t total = 0;
     for (int u = 0; u < b->units; u++) total += b->row[u * b->rows + j].count;
     line->upto = malloc((size_t)width * sizeof *line->upto);
-    float *all = malloc((KEPT * total + 1) * sizeof *all);
+    float *all = malloc(((size_t)b->channels * total + 1) * sizeof *all);
     int32_t *next = malloc(((size_t)width + 1) * sizeof *next);
-    for (int c = 0; c < KEPT; c++)
+    for (int c = 0; c < b->channels; c++)
         line->channel[kept[c]] = all ? all + (size_t)c * total : NULL;
     bool good = all && next && line->upto;
     if (good) {
@@ -135,8 +143,8 @@ static bool weave(const band *b, int j, int width, wf_deep_line *line) {
     for (int u = 0; good && u < b->units; u++) {
         const row_samples *r = &b->row[u * b->rows + j];
         for (size_t k = 0; k < r->count; k++) {
-            int at = next[pixel_of(r->v[4][k], width)]++;
-            for (int c = 0; c < KEPT; c++) line->channel[kept[c]][at] = r->v[c][k];
+            int at = next[pixel_of(r->v[KEPT_X][k], width)]++;
+            for (int c = 0; c < b->channels; c++) line->channel[kept[c]][at] = r->v[c][k];
         }
     }
     free(next);
@@ -196,6 +204,7 @@ static void *make_band(void *user, wf_worker *worker, int n) {
         b ? WEFT_OK : wf_fail(&worker->error, WEFT_NO_MEMORY, "no memory for a band");
     if (b) {
         b->first = first;
+        b->channels = KEPT - !t->alpha;
         b->rows = left < WF_TRACE_ROWS ? left : WF_TRACE_ROWS;
         status = trace_band(t, worker, b);
     }
@@ -257,7 +266,7 @@ static weft_status trace_file(tracing *t, const char *path, int64_t frame, int64
     const file_units units = units_of(t, frame, last_frame);
     weft_status status = turn_to(t, &units, err);
     if (!status)
-        status = wf_deep_writer_new(path, &job->raster, wf_scene_space(t->run),
+        status = wf_deep_writer_new(path, &job->raster, wf_scene_space(t->run), t->alpha,
                                     job->overwrite || job->resume, &t->file, err);
     if (status) return status;
     wf_crew_part(crew, 0, 1);

@@ -13,8 +13,9 @@ typedef struct subframes {
     wf_raster raster;        /* whose frames are the subframes */
     wf_rational rate;        /* subframes a second */
     int64_t per_frame;       /* subframes */
-    float *plane[3];         /* [lines][width_px] of one subframe */
-    float **rows;            /* [threads]: [WF_TRACE_ROWS][width_px][3] */
+    int channels;            /* 4: alpha is stored, as the scene has it; else 3 */
+    float *plane[4];         /* [lines][width_px] of one subframe */
+    float **rows;            /* [threads]: [WF_TRACE_ROWS][width_px][4] */
     wf_sink *sink;           /* NULL: not open */
 } subframes;
 
@@ -23,6 +24,7 @@ typedef struct subframes {
 static void describe(subframes *f, wf_run *run) {
     const wf_raster *raster = &run->job->raster;
     *f = (subframes){.run = run, .source = run->source, .raster = *raster};
+    f->channels = wf_scene_has_alpha(&f->source->scene) ? 4 : 3;
     wf_parse_oversample(run->job->oversample, &f->across, &f->down, &f->times);
     f->raster.width_px *= f->across;
     f->raster.lines *= f->down;
@@ -40,6 +42,7 @@ static void turn_to_subframes(subframes *f) {
     s->end_frame *= f->per_frame;
     s->output_options.raster = &f->raster;
     s->output_options.timecode = NULL;
+    s->output_options.alpha = f->channels == 4;
     s->output_options.color_space = wf_scene_space(f->run);
     s->output_options.subframe_rate = f->rate;
     wf_setup_tell_frames(s);
@@ -49,20 +52,20 @@ static void turn_to_subframes(subframes *f) {
 
 static void trace_band(void *user, wf_worker *worker, int n) {
     const subframes *f = user;
-    float *rgb = f->rows[worker->number];
+    float *rgba = f->rows[worker->number];
     size_t width = (size_t)f->raster.width_px;
     int first = n * WF_TRACE_ROWS, left = f->raster.lines - first;
     int rows = left < WF_TRACE_ROWS ? left : WF_TRACE_ROWS;
     if (!wf_sampling_subframe_rows(f->source->sampling, f->source->scratch[worker->number],
                                    f->raster.width_px, f->raster.lines, first, first + rows,
-                                   rgb)) {
+                                   rgba)) {
         wf_crew_fail(&f->run->crew, worker,
                      wf_fail(&worker->error, WEFT_NO_MEMORY, "no memory for rays"));
         return;
     }
     for (size_t k = 0; k < (size_t)rows * width; k++)
-        for (int c = 0; c < 3; c++)
-            f->plane[c][(size_t)first * width + k] = rgb[3 * k + (size_t)c];
+        for (int c = 0; c < f->channels; c++)
+            f->plane[c][(size_t)first * width + k] = rgba[4 * k + (size_t)c];
 }
 
 static weft_status trace_subframe(subframes *f, int64_t k, weft_error *err) {
@@ -72,7 +75,7 @@ static weft_status trace_subframe(subframes *f, int64_t k, weft_error *err) {
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
     wf_crew_each(crew, (f->raster.lines + WF_TRACE_ROWS - 1) / WF_TRACE_ROWS, 1, trace_band, f);
     weft_status status = wf_crew_status(crew, err);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < f->channels; c++) {
         frame.plane[c] = f->plane[c];
         frame.stride[c] = (size_t)f->raster.width_px;
     }
@@ -85,19 +88,19 @@ static weft_status trace_subframe(subframes *f, int64_t k, weft_error *err) {
 
 static weft_status make_buffers(subframes *f, weft_error *err) {
     size_t width = (size_t)f->raster.width_px, bytes = width * sizeof(float);
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < f->channels; c++)
         if (!(f->plane[c] = malloc(bytes * (size_t)f->raster.lines)))
             return wf_fail(err, WEFT_NO_MEMORY, "no memory for a subframe");
     f->rows = calloc((size_t)f->run->crew.threads, sizeof *f->rows);
     for (int t = 0; f->rows && t < f->run->crew.threads; t++)
-        if (!(f->rows[t] = malloc(3 * WF_TRACE_ROWS * bytes)))
+        if (!(f->rows[t] = malloc(4 * WF_TRACE_ROWS * bytes)))
             return wf_fail(err, WEFT_NO_MEMORY, "no memory for a band");
     return f->rows ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a band");
 }
 
 static void free_buffers(subframes *f) {
     for (int t = 0; f->rows && t < f->run->crew.threads; t++) free(f->rows[t]);
-    for (int c = 0; c < 3; c++) free(f->plane[c]);
+    for (int c = 0; c < f->channels; c++) free(f->plane[c]);
     free(f->rows);
 }
 

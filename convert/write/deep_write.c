@@ -21,10 +21,12 @@ struct wf_deep_writer {
 static const struct {
     const char *name;
     wf_deep_channel channel;
-} written[] = {{"B", WF_DEEP_B},        {"G", WF_DEEP_G},        {"R", WF_DEEP_R},
-               {"sample.t", WF_DEEP_T}, {"sample.x", WF_DEEP_X}, {"sample.y", WF_DEEP_Y}};
+} written[] = {{"A", WF_DEEP_A},       {"B", WF_DEEP_B},        {"G", WF_DEEP_G},
+               {"R", WF_DEEP_R},       {"sample.t", WF_DEEP_T}, {"sample.x", WF_DEEP_X},
+               {"sample.y", WF_DEEP_Y}};
 
 #define WRITTEN (sizeof written / sizeof *written)
+enum { WITH_ALPHA = 0, WITHOUT_ALPHA = 1 }; /* of `written`, the first that there is */
 
 /* ---- Lines ---- */
 
@@ -64,16 +66,18 @@ static bool deflate(struct libdeflate_compressor *how, uint8_t *raw, size_t coun
 weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *out,
                          weft_error *err) {
     size_t samples = (size_t)line->upto[width - 1], each = samples * sizeof(float);
-    *out = (wf_deep_packed){.unpacked_bytes = WRITTEN * each};
+    size_t first = line->channel[WF_DEEP_A] ? WITH_ALPHA : WITHOUT_ALPHA;
+    size_t bytes = (WRITTEN - first) * each;
+    *out = (wf_deep_packed){.unpacked_bytes = bytes};
     struct libdeflate_compressor *how = libdeflate_alloc_compressor(1);
-    uint8_t *raw = malloc(WRITTEN * each + 1);
+    uint8_t *raw = malloc(bytes + 1);
     bool good = how && raw;
     /* Lays the samples out as they are stored: all of a line's for one channel, then for the
      * next. */
     uint8_t *to = raw;
-    for (size_t c = 0; good && c < WRITTEN; c++, to += each)
+    for (size_t c = first; good && c < WRITTEN; c++, to += each)
         memcpy(to, line->channel[written[c].channel], each);
-    good = good && deflate(how, raw, WRITTEN * each, &out->data, &out->data_bytes) &&
+    good = good && deflate(how, raw, bytes, &out->data, &out->data_bytes) &&
            deflate(how, (uint8_t *)line->upto, (size_t)width * sizeof *line->upto, &out->table,
                    &out->table_bytes);
     free(raw);
@@ -105,7 +109,8 @@ static bool set_text(exr_context_t exr, const char *name, const char *text) {
     return !*text || !exr_attr_set_string(exr, 0, name, text);
 }
 
-static bool describe(wf_deep_writer *w, const wf_raster *r, const char *color_space) {
+static bool describe(wf_deep_writer *w, const wf_raster *r, const char *color_space,
+                     bool alpha) {
     exr_attr_box2i_t window = {.min = {.x = 0, .y = 0},
                                .max = {.x = r->width_px - 1, .y = r->lines - 1}};
     exr_attr_v2f_t center = {.x = 0, .y = 0};
@@ -114,7 +119,7 @@ static bool describe(wf_deep_writer *w, const wf_raster *r, const char *color_sp
                 !exr_initialize_required_attr(
                     w->exr, 0, &window, &window, (float)wf_ratio_value(r->pixel_aspect),
                     &center, 1, EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIPS);
-    for (size_t c = 0; good && c < WRITTEN; c++)
+    for (size_t c = alpha ? WITH_ALPHA : WITHOUT_ALPHA; good && c < WRITTEN; c++)
         good = !exr_add_channel(w->exr, 0, written[c].name, EXR_PIXEL_FLOAT,
                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     return good && !exr_attr_set_rational(w->exr, 0, "framesPerSecond", &rate) &&
@@ -123,8 +128,8 @@ static bool describe(wf_deep_writer *w, const wf_raster *r, const char *color_sp
 }
 
 weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
-                               const char *color_space, bool overwrite, wf_deep_writer **out,
-                               weft_error *err) {
+                               const char *color_space, bool alpha, bool overwrite,
+                               wf_deep_writer **out, weft_error *err) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     wf_deep_writer *w = calloc(1, sizeof *w);
     if (!w) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory", path);
@@ -133,7 +138,7 @@ weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
     how.write_fn = put_bytes;
     weft_status status = wf_outplace_open(path, overwrite, &w->place, &w->fd, err);
     if (!status && (exr_start_write(&w->exr, path, EXR_WRITE_FILE_DIRECTLY, &how) ||
-                    !describe(w, raster, color_space)))
+                    !describe(w, raster, color_space, alpha)))
         status = wf_fail(err, WEFT_FAILED, "%s: its header cannot be written", path);
     if (status) {
         wf_deep_abandon(w);

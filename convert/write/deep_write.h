@@ -5,7 +5,7 @@
 #include "convert/media/deep.h"
 #include "filters/raster/raster.h"
 
-/* Writes sample buffers: float R G B, sample.x, sample.y, sample.t, ZIPS. */
+/* Writes sample buffers: float R G B, if asked for A, sample.x, sample.y, sample.t, ZIPS. */
 
 typedef struct wf_deep_writer wf_deep_writer;
 
@@ -16,8 +16,9 @@ typedef struct wf_deep_packed {
 } wf_deep_packed;
 
 weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
-                               const char *color_space, bool overwrite, wf_deep_writer **out,
-                               weft_error *err);
+                               const char *color_space, bool alpha, bool overwrite,
+                               wf_deep_writer **out, weft_error *err);
+/* Lines of a file have A either all or none. */
 weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *out,
                          weft_error *err);
 void wf_deep_packed_free(wf_deep_packed *packed);

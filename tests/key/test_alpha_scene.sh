@@ -50,6 +50,30 @@ if wrong or seen < 80:
     raise SystemExit(f"{seen} edges\n" + "\n".join(wrong[:9]))
 END
 
+# ---- Stored samples ----
+
+grid=(--raster 20x16@25i,tff,par=1:1 -q)
+has() { oiiotool --info -v "$1" | grep -q "channel list: R, G, B, A"; }
+agree() { oiiotool "$1" "$2" --fail "${3:-0}" --diff >diff.log || { cat diff.log; return 1; }; }
+check "samples" exits 0 weft trace covered.lua "${grid[@]}" --samples 16 --frames 0-1 -o kept.####.exr
+check "have alpha" has kept.0000.exr
+check "from which fields are made" exits 0 weft convert kept.####.exr "${grid[@]}" --alpha-out -o of_kept.####.exr
+check "as the scene" exits 0 weft render covered.lua "${grid[@]}" --samples 16 --frames 0-1 --alpha-out -o at_once.####.exr
+check "has them" agree of_kept.0000.exr at_once.0000.exr
+check "subframes" exits 0 weft trace covered.lua "${grid[@]}" --oversample 8x8x8 --frames 0-1 -o grid.####.exr
+check "have it" has grid.0000.exr
+check "and their fields" exits 0 weft convert grid.####.exr "${grid[@]}" --alpha-out -o of_grid.####.exr
+check "are those of many samples" exits 0 weft render covered.lua "${grid[@]}" --samples 512 --frames 0-1 --alpha-out -o many.####.exr
+check "within what a grid misses" agree of_grid.0000.exr many.0000.exr 0.07
+cat >cut.lua <<'END'
+camera{eye={0, 0, 100}, look_at={0, 0, 0}, ortho_height=16}
+add(sphere{center={0, 0, 0}, radius=4}:material{holdout=true})
+END
+check "a holdout" exits 0 weft trace cut.lua --raster 20x16@25p -q --samples 1 --frames 0 -o cut.####.exr
+check "is alpha too" has cut.0000.exr
+check "an opaque scene" exits 0 weft trace "$WEFT_SOURCE/examples/scenes/still.lua" --raster 20x16@25p -q --samples 1 --frames 0 -o opaque.####.exr
+check "has none" eval '! has opaque.0000.exr'
+
 # ---- Glass and holdouts ----
 
 # In front of a disk that moves and a block that does, a pane of which half comes through each surface; at the right a

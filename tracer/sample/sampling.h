@@ -69,9 +69,9 @@ typedef struct wf_error_sum {
 wf_error_sum wf_sampling_error(const wf_sampling_scratch *scratch);
 
 /* One subframe: samples in a regular grid at an instant, rows first <= j < end of a picture of
- * `across` x `down` of them, scene-linear, [end - first][across][3]. */
+ * `across` x `down` of them, scene-linear and multiplied by alpha, [end - first][across][4]. */
 bool wf_sampling_subframe(wf_sampling *sampling, wf_rational time_s);
 bool wf_sampling_subframe_rows(const wf_sampling *sampling, wf_sampling_scratch *scratch,
-                               int across, int down, int first, int end, float *rgb);
+                               int across, int down, int first, int end, float *rgba);
 
 #endif

@@ -8,25 +8,28 @@ bool wf_sampling_subframe(wf_sampling *s, wf_rational time_s) {
 
 /* Samples are taken at the middles of the picture's own pixels. */
 static bool trace_stretch(const wf_sampling *s, wf_sampling_scratch *c, const double cell[2],
-                          int first, int count, int row, float *rgb) {
+                          int first, int count, int row, float *rgba) {
     const wf_trace_samples traced = {.count = (size_t)count,
                                      .x = c->trace_x,
                                      .y = c->trace_y,
                                      .f = c->trace_f,
-                                     .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]}};
+                                     .rgb = {c->rgb[0], c->rgb[1], c->rgb[2]},
+                                     .alpha = c->alpha};
     for (int i = 0; i < count; i++) {
         c->trace_x[i] = (first + i + 0.5) * cell[0];
         c->trace_y[i] = (row + 0.5) * cell[1];
         c->trace_f[i] = 0;
     }
     if (!wf_trace(s->tracer, c->trace, &traced)) return false;
-    for (int i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++) rgb[3 * (first + i) + k] = c->rgb[k][i];
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++) rgba[4 * (first + i) + k] = c->rgb[k][i];
+        rgba[4 * (first + i) + 3] = c->alpha[i];
+    }
     return true;
 }
 
 bool wf_sampling_subframe_rows(const wf_sampling *s, wf_sampling_scratch *c, int across,
-                               int down, int first, int end, float *rgb) {
+                               int down, int first, int end, float *rgba) {
     const double cell[2] = {(double)s->raster.width_px / across,
                             (double)s->raster.lines / down};
     int most = c->capacity < 256 ? (int)c->capacity : 256;
@@ -38,7 +41,7 @@ bool wf_sampling_subframe_rows(const wf_sampling *s, wf_sampling_scratch *c, int
         if (!wf_trace_prepare(s->tracer, c->trace, xs, ys, &empty)) return false;
         for (int row = first; row < end; row++)
             if (!trace_stretch(s, c, cell, x, count, row,
-                               rgb + (size_t)(row - first) * 3 * (size_t)across))
+                               rgba + (size_t)(row - first) * 4 * (size_t)across))
                 return false;
     }
     return true;

@@ -3,6 +3,12 @@
 
 #include <stdlib.h>
 
+bool wf_scene_has_alpha(const wf_scene *scene) {
+    bool cut = scene->background_clear > 0;
+    for (int n = 0; n < scene->material_count; n++) cut |= scene->materials[n].holdout;
+    return cut;
+}
+
 void wf_scene_free(wf_scene *s) {
     for (int n = 0; n < s->image_count; n++) free(s->images[n].rgb);
     free(s->ops);

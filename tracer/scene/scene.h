@@ -192,6 +192,9 @@ typedef struct wf_scene {
         object_count, light_count;
 } wf_scene;
 
+/* Whether anything may be seen through: its background, or a holdout. */
+bool wf_scene_has_alpha(const wf_scene *scene);
+
 /* Frees what the scene owns; the struct itself is the caller's. */
 void wf_scene_free(wf_scene *scene);
 

@@ -65,7 +65,8 @@ static void write_file(void) {
     wf_raster raster = make_raster();
     wf_deep_writer *writer;
     weft_error err;
-    assert_int_equal(wf_deep_writer_new(path, &raster, "ACEScg", true, &writer, &err), WEFT_OK);
+    assert_int_equal(wf_deep_writer_new(path, &raster, "ACEScg", false, true, &writer, &err),
+                     WEFT_OK);
     for (int j = 0; j < LINES; j++) {
         wf_deep_line line = {0};
         wf_deep_packed packed;
