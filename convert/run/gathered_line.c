@@ -26,6 +26,10 @@ weft_status wf_gathered_finish(const wf_gathered_line *l, float *const rgb[3], i
     if (l->job->on_empty == WF_EMPTY_NEAREST) return fill(l, first, rgb, filled, err);
     return wf_fail(err, WEFT_FAILED,
                    "field %" PRId64 ", line %d, pixel %d: no sample reached it; give more "
-                   "samples, or %s",
-                   l->field, l->called, first, l->remedy);
+                   "samples, or %s%s",
+                   l->field, l->called, first, l->remedy,
+                   l->job->raster.all_lines
+                       ? " (flicker is held on all lines of a frame at a field's instant, so "
+                         "each of them needs samples)"
+                       : "");
 }
