@@ -8,6 +8,7 @@
 
 #include "tracer/scene/advice.h"
 #include "tracer/scene/guess.h"
+#include "tracer/scene/sandbox_library.h"
 
 /* In the registry: a table whose keys are the names of param that were asked for. */
 static const char asked[] = "weft asked params";
@@ -36,17 +37,15 @@ static int read_param(lua_State *lua) {
     return 1;
 }
 
-static int next_param(lua_State *lua) {
-    lua_settop(lua, 2);
-    if (!lua_next(lua, lua_upvalueindex(1))) return 0;
-    mark_asked(lua, 2);
-    return 2;
-}
-
+/* Whoever walks through all reads all. Upvalues: the values by name, and `pairs`. */
 static int walk_params(lua_State *lua) {
+    lua_settop(lua, 0);
+    for (lua_pushnil(lua); lua_next(lua, lua_upvalueindex(1)); lua_pop(lua, 1))
+        mark_asked(lua, 1);
+    lua_pushvalue(lua, lua_upvalueindex(2));
     lua_pushvalue(lua, lua_upvalueindex(1));
-    lua_pushcclosure(lua, next_param, 1);
-    return 1;
+    lua_call(lua, 1, 3);
+    return 3;
 }
 
 /* An empty table that looks its values up elsewhere, so that it is known which are. */
@@ -63,7 +62,8 @@ static void open_params(lua_State *lua, const wf_load_options *o) {
     lua_pushvalue(lua, -1);
     lua_pushcclosure(lua, read_param, 1);
     lua_setfield(lua, -3, "__index");
-    lua_pushcclosure(lua, walk_params, 1);
+    lua_getglobal(lua, "pairs");
+    lua_pushcclosure(lua, walk_params, 2);
     lua_setfield(lua, -2, "__pairs");
     lua_pushboolean(lua, false);
     lua_setfield(lua, -2, "__metatable");
@@ -77,14 +77,16 @@ static const char *list_asked(lua_State *lua, const char *name, char *list, size
     wf_guess guess = wf_guess_of(name);
     size_t used = 0;
     *list = '\0';
-    for (lua_pushnil(lua); lua_next(lua, -2); lua_pop(lua, 1)) {
-        if (lua_type(lua, -2) != LUA_TSTRING) continue;
-        const char *other = lua_tostring(lua, -2);
+    wf_sandbox_sort_keys(lua, -1);
+    for (lua_Integer n = 1; lua_rawgeti(lua, -1, n) != LUA_TNIL; n++, lua_pop(lua, 1)) {
+        if (lua_type(lua, -1) != LUA_TSTRING) continue;
+        const char *other = lua_tostring(lua, -1);
         wf_guess_offer(&guess, other);
         if (used < size)
             used +=
                 (size_t)snprintf(list + used, size - used, "%s%.40s", used ? ", " : "", other);
     }
+    lua_pop(lua, 2);
     return wf_guess_found(&guess);
 }
 

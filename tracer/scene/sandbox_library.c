@@ -205,6 +205,7 @@ int wf_sandbox_open_libraries(lua_State *lua) {
     lua_getglobal(lua, LUA_TABLIBNAME);
     wf_sandbox_set_table(lua);
     settle_random(lua);
+    wf_sandbox_set_pairs(lua);
     lua_register(lua, "setmetatable", set_metatable);
     lua_register(lua, "pcall", protect);
     lua_register(lua, "xpcall", protect_and_handle);

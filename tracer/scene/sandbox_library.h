@@ -12,4 +12,13 @@ int wf_sandbox_open_libraries(lua_State *lua);
  * top of the stack. */
 void wf_sandbox_set_table(lua_State *lua);
 
+int wf_sandbox_sort(lua_State *lua); /* table.sort */
+
+/* `pairs`, which is the same in every run: numbers first, then texts, both ascending, then
+ * what has no order (sandbox_pairs.c). */
+void wf_sandbox_set_pairs(lua_State *lua);
+
+/* Pushes a list of a table's keys in that order. */
+void wf_sandbox_sort_keys(lua_State *lua, int table);
+
 #endif

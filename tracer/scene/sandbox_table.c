@@ -138,7 +138,7 @@ static lua_Integer least(lua_Integer a, lua_Integer b) {
     return a < b ? a : b;
 }
 
-static int sort(lua_State *lua) {
+int wf_sandbox_sort(lua_State *lua) {
     lua_Integer length = length_of(lua);
     if (length < 2) return 0;
     luaL_argcheck(lua, length < INT_MAX, 1, "array too big");
@@ -166,7 +166,7 @@ static int sort(lua_State *lua) {
 void wf_sandbox_set_table(lua_State *lua) {
     static const luaL_Reg functions[] = {{"concat", concat},       {"unpack", unpack},
                                          {"move", move},           {"insert", insert},
-                                         {"remove", remove_entry}, {"sort", sort}};
+                                         {"remove", remove_entry}, {"sort", wf_sandbox_sort}};
     for (size_t n = 0; n < sizeof functions / sizeof *functions; n++) {
         lua_getfield(lua, -1, functions[n].name);
         lua_pushcclosure(lua, functions[n].func, 1);

@@ -92,6 +92,8 @@ static const struct {
     {LONG "local t = {} while true do t[s .. 'y'] = 1 t = {} end", "steps"},
     {HOLES "while true do next(h) end", "steps"},
     {HOLES "while true do for k in pairs(h) do end end", "steps"},
+    {"local t = {} for i = 1, 1 << 14 do t['k' .. i] = i end while true do pairs(t) end",
+     "steps"},
     {"local function f(...) return select('#', ...), f(...) end f(table.unpack({}, 1, 9e5))",
      NULL},
     {"local function f(...) local n = select(-1, ...) return f(...) end "

@@ -207,6 +207,32 @@ static void parameters_and_raster(void **state) {
     wf_scene_free(&s);
 }
 
+/* Tables are walked in the same order in every run; Lua's own is another in each. */
+static void pairs_have_an_order(void **state) {
+    wf_scene s;
+    (void)state;
+    load(CAMERA "local t, all = {}, {}\n"
+                "for i = 1, 200 do t['k' .. i * 7919 % 1000] = i end\n"
+                "t[true], t[-3], t[2.5], t[1], t[20] = 1, 2, 3, 4, 5\n"
+                "for k, v in pairs(t) do\n"
+                "  assert(t[k] == v)\n"
+                "  all[#all + 1] = k\n"
+                "  t[k] = nil\n"
+                "  t.k999, t.k7 = nil, nil\n"
+                "end\n"
+                "assert(next(t) == nil and #all > 200 and all[#all] == true)\n"
+                "assert(all[1] == -3 and all[2] == 1 and all[3] == 2.5 and all[4] == 20)\n"
+                "for i = 6, #all - 1 do assert(all[i - 1] < all[i]) end\n"
+                "local list = {}\n"
+                "for k, v in pairs{5, 6, 7} do list[#list + 1] = k * v end\n"
+                "assert(table.concat(list, ' ') == '5 12 21')\n"
+                "local own = setmetatable({}, {__pairs=function() return next, {9} end})\n"
+                "for k, v in pairs(own) do assert(k == 1 and v == 9) end\n"
+                "assert(not pcall(pairs) and not pcall(pairs, 3))",
+         &s);
+    wf_scene_free(&s);
+}
+
 /* A moved camera is still the camera; a moved light that light. */
 static void moved_cameras_and_lights(void **state) {
     wf_scene s;
@@ -229,6 +255,7 @@ int main(void) {
         cmocka_unit_test(placements),
         cmocka_unit_test(looks_and_widths),
         cmocka_unit_test(parameters_and_raster),
+        cmocka_unit_test(pairs_have_an_order),
         cmocka_unit_test(moved_cameras_and_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
