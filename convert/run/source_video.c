@@ -366,8 +366,9 @@ static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
         .aperture = job->aperture,
         .timing = s->timing,
         .channels = s->channels,
+        .floats = true,
         .background = {job->background[0], job->background[1], job->background[2]},
-        .band_rows = 8,
+        .band_rows = 16,
     };
     wf_fit_picture(job, &s->first, &desc.x, &desc.y);
     return desc;

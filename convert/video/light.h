@@ -16,7 +16,7 @@ weft_status wf_light_new(const wf_video_info *info, const wf_meaning *meaning,
 void wf_light_free(wf_light *light); /* NULL is fine */
 
 /* Most rows that are made at once, and bytes of scratch for them. */
-#define WF_LIGHT_ROWS 8
+#define WF_LIGHT_ROWS 16
 size_t wf_light_scratch(const wf_light *light);
 
 /* Rows y0 <= y < y1 of the picture whose codes, of wf_video_code_bytes each, are in plane,

@@ -43,7 +43,8 @@ size_t wf_scratch_bytes(const wf_resampler *rs, int fields_in_flight) {
                      (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs) +
                      2 * width;
     return doubles * sizeof(double) + slot_sum_count(rs) * wf_done_samples(rs) * sizeof(float) +
-           strand_count(rs) * sizeof(wf_strand);
+           strand_count(rs) * (sizeof(wf_strand) + sizeof(wf_quick_strand)) +
+           width * sizeof(float);
 }
 
 static bool make_buffers(wf_scratch *s, int fields_in_flight) {
@@ -51,16 +52,19 @@ static bool make_buffers(wf_scratch *s, int fields_in_flight) {
     size_t width = (size_t)rs->x.pixels, phases = (size_t)rs->phases;
     s->sums = malloc((size_t)fields_in_flight * s->slot_samples * sizeof *s->sums);
     s->live = calloc((size_t)fields_in_flight * s->slot_sums, sizeof *s->live);
-    s->held.done = malloc(s->slot_sums * wf_done_samples(rs) * sizeof *s->held.done);
+    s->held.own = malloc(s->slot_sums * wf_done_samples(rs) * sizeof *s->held.own);
     s->rows = malloc(s->most_kernels * wf_row_samples(rs) * sizeof *s->rows);
     s->strands = malloc((strand_count(rs) + 1) * sizeof *s->strands);
+    s->quick_strands = malloc((strand_count(rs) + 1) * sizeof *s->quick_strands);
+    s->quick_exists = malloc(width * sizeof *s->quick_exists);
     s->strand_counts = malloc(phases * sizeof *s->strand_counts);
     s->picture =
         malloc((size_t)rs->desc.channels * phases * wf_run_length(rs) * sizeof *s->picture);
     s->inside = malloc(2 * width * sizeof *s->inside);
     s->totals = malloc(s->most_kernels * sizeof *s->totals);
-    return s->sums && s->live && s->held.done && s->rows && s->strands && s->strand_counts &&
-           s->picture && s->inside && s->totals && wf_kernel_alloc(rs, &s->kernel);
+    return s->sums && s->live && s->held.own && s->rows && s->strands && s->quick_strands &&
+           s->quick_exists && s->strand_counts && s->picture && s->inside && s->totals &&
+           wf_kernel_alloc(rs, &s->kernel);
 }
 
 wf_scratch *wf_scratch_new(const wf_resampler *rs, int fields_in_flight) {
@@ -82,9 +86,11 @@ void wf_scratch_free(wf_scratch *s) {
     if (!s) return;
     free(s->sums);
     free(s->live);
-    free(s->held.done);
+    free(s->held.own);
     free(s->rows);
     free(s->strands);
+    free(s->quick_strands);
+    free(s->quick_exists);
     free(s->strand_counts);
     free(s->picture);
     free(s->inside);
@@ -130,6 +136,9 @@ bool wf_field_renew(wf_field *f, int64_t index) {
     f->weights = &rs->weights[wf_raster_parity(rs->desc.raster, index)];
     f->window = wf_resampler_window(rs, index);
     f->carried = f->last = f->complete = false;
+    f->quick =
+        rs->line_additions &&
+        f->window.count * f->weights->most_terms + rs->line_additions <= WF_QUICK_ADDITIONS;
     free(f->moments);
     free(f->bands_left);
     free(f->overscan);
@@ -296,13 +305,6 @@ static wf_span columns_added(const wf_resampler *rs, const wf_band_input *input)
     return meet(reached, (wf_span){input->here.x0, input->here.x1});
 }
 
-/* Whether rows of samples are added to all of a sum, which then begins with them. */
-static bool fills_sums(const wf_resampler *rs, const wf_band_input *input) {
-    wf_span columns = columns_added(rs, input);
-    return !input->half && columns.first == rs->columns.first &&
-           columns.end == rs->columns.end && input->channels >= rs->desc.channels;
-}
-
 static void add_samples(const wf_field *f, const wf_term *term, const wf_band_input *input,
                         double weight, double *sum) {
     const wf_resampler *rs = f->rs;
@@ -357,32 +359,59 @@ typedef struct rows_together {
     double weight[MOST_TOGETHER];
 } rows_together;
 
-static void add_together(const wf_resampler *rs, const wf_band_input *input,
-                         rows_together *rows, int sum, wf_scratch *s, int slot) {
-    double *to = slot_sum(s, slot, sum);
+/* The samples of a sum, of either kind, from `at` on. */
+static void *sum_samples(const wf_field *f, double *sum, size_t at) {
+    return f->quick ? (void *)((float *)sum + at) : (void *)(sum + at);
+}
+
+/* Zeros beside the columns that rows are added to. */
+static void clear_ends(const wf_field *f, double *sum, wf_span columns) {
+    const wf_resampler *rs = f->rs;
+    size_t size = f->quick ? sizeof(float) : sizeof(double);
+    size_t before = (size_t)(columns.first - rs->columns.first),
+           after = (size_t)(rs->columns.end - columns.end);
+    for (size_t c = 0; c < (size_t)rs->desc.channels; c++) {
+        memset(sum_samples(f, sum, c * wf_columns_of(rs)), 0, before * size);
+        memset(sum_samples(f, sum, (c + 1) * wf_columns_of(rs) - after), 0, after * size);
+    }
+}
+
+static void add_together(const wf_field *f, const wf_band_input *input, rows_together *rows,
+                         int sum, wf_scratch *s, int slot) {
+    const wf_resampler *rs = f->rs;
+    wf_span columns = columns_added(rs, input);
+    size_t count = (size_t)(columns.end - columns.first),
+           before = (size_t)(columns.first - rs->columns.first);
+    double *begun = slot_sum(s, slot, sum);
     bool *live = &s->live[(size_t)slot * s->slot_sums + (size_t)sum];
-    size_t columns = wf_columns_of(rs);
-    for (int c = 0; rows->count && c < rs->desc.channels; c++, to += columns) {
+    if (!rows->count) return;
+    if (!*live) clear_ends(f, begun, columns);
+    for (size_t c = 0; c < (size_t)rs->desc.channels; c++) {
+        void *to = sum_samples(f, begun, c * wf_columns_of(rs) + before);
         const float *row[MOST_TOGETHER];
         for (size_t r = 0; r < rows->count; r++)
             row[r] = (const float *)input->plane[c] + rows->at[r];
-        rs->ops->add_floats(to, !*live, row, rows->weight, rows->count, columns);
+        if (f->quick)
+            rs->ops->quick_add_floats(to, !*live, row, rows->weight, rows->count, count);
+        else
+            rs->ops->add_floats(to, !*live, row, rows->weight, rows->count, count);
     }
-    *live |= rows->count > 0;
+    *live = true;
     rows->count = 0;
 }
 
 static void join(const wf_resampler *rs, const wf_term *term, const wf_band_input *input,
                  double weight, rows_together *rows) {
+    int first = columns_added(rs, input).first;
     if (!has_samples(rs, term, input)) return;
     rows->weight[rows->count] = weight;
     rows->at[rows->count++] = (size_t)(term->row - input->here.y0) * input->line_stride +
-                              (size_t)(rs->columns.first - input->here.x0);
+                              (size_t)(first - input->here.x0);
 }
 
 void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_input *input) {
     const wf_band *b = &f->weights->bands[band];
-    bool together = fills_sums(f->rs, input);
+    bool together = !input->half && input->channels >= f->rs->desc.channels;
     rows_together rows = {0};
     for (int t = b->terms.first; t < b->terms.end; t++) {
         const wf_term *term = &f->weights->terms[t];
@@ -392,15 +421,37 @@ void wf_band_add(wf_field *f, int band, wf_scratch *s, int slot, const wf_band_i
         if (weight != 0 && together) join(f->rs, term, input, weight, &rows);
         if (weight != 0 && !together) add_term(f, term, input, weight, sum, s, slot);
         bool ends = t + 1 == b->terms.end || term[1].sum != term->sum;
-        if (ends || rows.count == MOST_TOGETHER)
-            add_together(f->rs, input, &rows, sum, s, slot);
+        if (ends || rows.count == MOST_TOGETHER) add_together(f, input, &rows, sum, s, slot);
     }
 }
 
-static void finish_sum(const wf_resampler *rs, const double *from, float *done) {
-    for (size_t c = 0; c < (size_t)rs->desc.channels; c++)
-        rs->ops->split(done + c * wf_row_samples(rs), from + c * wf_columns_of(rs),
-                       (size_t)rs->lanes, (size_t)rs->lane_length, wf_columns_of(rs));
+static void finish_sum(const wf_field *f, double *sum, float *done) {
+    const wf_resampler *rs = f->rs;
+    size_t columns = wf_columns_of(rs), lanes = (size_t)rs->lanes,
+           length = (size_t)rs->lane_length;
+    for (size_t c = 0; c < (size_t)rs->desc.channels; c++, done += wf_row_samples(rs)) {
+        const void *from = sum_samples(f, sum, c * columns);
+        if (f->quick)
+            rs->ops->quick_split(done, from, lanes, length, columns);
+        else
+            rs->ops->split(done, from, lanes, length, columns);
+    }
+}
+
+/* Whether sums lie in their slots as lines take them. */
+static bool as_lines_take(const wf_field *f) {
+    return f->quick && f->rs->lanes == 1;
+}
+
+static void hold(const wf_field *f, const wf_band *b, wf_scratch *s, int slot) {
+    wf_held *held = &s->held;
+    held->field = f;
+    held->index = f->index;
+    held->sums = b->sums;
+    held->done = as_lines_take(f) ? (const float *)slot_sum(s, slot, 0) : held->own;
+    held->stride = as_lines_take(f) ? (size_t)(slot_sum(s, slot, 1) - slot_sum(s, slot, 0)) *
+                                          (sizeof(double) / sizeof(float))
+                                    : wf_done_samples(f->rs);
 }
 
 void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot, bool at_once) {
@@ -408,20 +459,21 @@ void wf_band_close(wf_field *f, int band, wf_scratch *s, int slot, bool at_once)
     size_t samples = wf_sum_samples(f->rs), done = wf_done_samples(f->rs);
     const bool *live = s->live + (size_t)slot * s->slot_sums;
     at_once = at_once && f->last;
-    s->held.field = at_once ? f : NULL;
-    s->held.index = f->index;
-    s->held.sums = b->sums;
+    s->held.field = NULL;
+    if (at_once) hold(f, b, s, slot);
     for (int sum = b->sums.first; sum < b->sums.end; sum++) {
         int of_band = sum - b->sums.first;
-        const double *from = slot_sum(s, slot, of_band);
+        double *from = slot_sum(s, slot, of_band);
         f->touched[sum] = live[of_band];
         if (!f->touched[sum]) continue;
-        if (at_once && f->weights->whole[sum])
-            finish_sum(f->rs, from, s->held.done + (size_t)of_band * done);
-        else if (f->last)
-            finish_sum(f->rs, from, f->done + (size_t)sum * done);
-        else
-            memcpy(f->carry + (size_t)sum * samples, from, samples * sizeof *from);
+        if (!at_once || !f->weights->whole[sum]) {
+            if (f->last)
+                finish_sum(f, from, f->done + (size_t)sum * done);
+            else
+                memcpy(f->carry + (size_t)sum * samples, from, samples * sizeof *from);
+        } else if (!as_lines_take(f)) {
+            finish_sum(f, from, s->held.own + (size_t)of_band * done);
+        }
     }
 }
 

@@ -100,3 +100,14 @@ bool wf_kernels_keep(wf_resampler *rs) {
     }
     return true;
 }
+
+int wf_kernel_strands(const wf_resampler *rs, int kernel) {
+    int most = 0;
+    for (int r = 0; r < rs->phases; r++) {
+        const double *weight = rs->kernels[kernel].weight + r * rs->taps;
+        int strands = 0;
+        for (int t = 0; t < rs->taps; t++) strands += weight[t] != 0;
+        if (strands > most) most = strands;
+    }
+    return most;
+}

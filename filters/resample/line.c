@@ -8,9 +8,9 @@ static const float *done_row(const wf_field *f, const wf_scratch *s, int tap, in
     const wf_held *held = &s->held;
     bool at_hand = held->field == f && held->index == f->index && sum >= held->sums.first &&
                    sum < held->sums.end && f->weights->whole[sum];
-    const float *done = at_hand ? held->done : f->done;
-    return done + (size_t)(at_hand ? sum - held->sums.first : sum) * wf_done_samples(f->rs) +
-           (size_t)channel * wf_row_samples(f->rs);
+    const float *row = at_hand ? held->done + (size_t)(sum - held->sums.first) * held->stride
+                               : f->done + (size_t)sum * wf_done_samples(f->rs);
+    return row + (size_t)channel * wf_row_samples(f->rs);
 }
 
 /* Whether a sample was added to any of the sums of these taps. */
@@ -65,21 +65,24 @@ static double *row_of(const wf_scratch *s, const group *g) {
     return s->rows + (size_t)g->number * wf_row_samples(s->rs);
 }
 
+/* Where in a row the cell lies that pixels of phase r take with weight t. */
+static size_t place_of(const wf_resampler *rs, int r, int t) {
+    int first = wf_axis_reach(&rs->x, rs->desc.aperture.reach_u, r).first;
+    int cell = first - rs->columns.first + t;
+    return (size_t)(cell % rs->lanes * rs->lane_length + cell / rs->lanes);
+}
+
 /* Pixels of one phase side by side: pixel phases * m + r takes weight[r][t] of row[cell]. */
 static void add_strands(const group *g, const wf_kernel *kernel, wf_scratch *s) {
     const wf_resampler *rs = s->rs;
     size_t most = s->most_kernels * (size_t)rs->taps;
-    for (int r = 0; r < rs->phases; r++) {
-        int first = wf_axis_reach(&rs->x, rs->desc.aperture.reach_u, r).first;
+    for (int r = 0; r < rs->phases; r++)
         for (int t = 0; t < rs->taps; t++) {
             double weight = kernel->weight[r * rs->taps + t];
             if (weight == 0) continue;
-            int cell = first - rs->columns.first + t;
-            const double *row =
-                row_of(s, g) + cell % rs->lanes * rs->lane_length + cell / rs->lanes;
-            s->strands[(size_t)r * most + s->strand_counts[r]++] = (wf_strand){row, weight};
+            s->strands[(size_t)r * most + s->strand_counts[r]++] =
+                (wf_strand){row_of(s, g) + place_of(rs, r, t), weight};
         }
-    }
 }
 
 static void filter_phases(const wf_resampler *rs, const wf_scratch *s, double *out) {
@@ -236,7 +239,58 @@ static void normalize(const wf_resampler *rs, const wf_scratch *s, float *const 
         }
 }
 
+/* ---- Quick lines ---- */
+
+static void turn_over(wf_scratch *s) {
+    size_t width = (size_t)s->rs->x.pixels;
+    s->rs->ops->invert(s->exists, width);
+    for (size_t i = 0; i < width; i++) s->quick_exists[i] = (float)s->exists[i];
+}
+
+/* A sum by itself is a row as it is. */
+static const float *quick_row(const wf_field *f, const wf_scratch *s, const group *g,
+                              int channel) {
+    float *sum = (float *)row_of(s, g);
+    const float *row = NULL;
+    for (int t = g->taps.first; t < g->taps.end; t++) {
+        if (!f->touched[f->weights->taps[t].sum]) continue;
+        const float *next = done_row(f, s, t, channel);
+        if (row) f->rs->ops->quick_set_rows(sum, row, next, wf_row_samples(f->rs));
+        row = row ? sum : next;
+    }
+    return row;
+}
+
+static void quick_channel(const wf_field *f, int line, int channel, wf_scratch *s, float *out) {
+    const wf_resampler *rs = f->rs;
+    size_t count = 0;
+    for (group g = before_first(f, line); next_group(f, line, &g);) {
+        const wf_kernel *kernel = &rs->kernels[f->weights->taps[g.taps.first].kernel];
+        const float *row = quick_row(f, s, &g, channel);
+        for (int t = 0; row && t < rs->taps; t++)
+            if (kernel->weight[t] != 0)
+                s->quick_strands[count++] =
+                    (wf_quick_strand){row + place_of(rs, 0, t), (float)kernel->weight[t]};
+    }
+    rs->ops->quick_weave(out, s->quick_strands, count, s->quick_exists, (size_t)rs->x.pixels);
+}
+
+static void quick_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[3]) {
+    const wf_resampler *rs = f->rs;
+    if (!same_totals(f, line, s)) {
+        memset(s->inside, 0, 2 * (size_t)rs->x.pixels * sizeof *s->inside);
+        for (group g = before_first(f, line); next_group(f, line, &g);)
+            add_totals(f, &g, &rs->kernels[f->weights->taps[g.taps.first].kernel], s);
+        turn_over(s);
+    }
+    for (int c = 0; c < 3; c++) quick_channel(f, line, c, s, rgb[c]);
+}
+
 void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[3]) {
+    if (f->quick) {
+        quick_line(f, line, s, rgb);
+        return;
+    }
     const wf_resampler *rs = f->rs;
     size_t width = (size_t)rs->x.pixels,
            samples = (size_t)rs->desc.channels * (size_t)rs->phases * wf_run_length(rs);
@@ -246,6 +300,6 @@ void wf_field_line(const wf_field *f, int line, wf_scratch *s, float *const rgb[
     if (!rs->polyphase) memset(s->picture, 0, samples * sizeof *s->picture);
     take_groups(f, line, s, new_totals);
     for (int c = 0; rs->polyphase && c < rs->desc.channels; c++) weave_channel(f, line, c, s);
-    if (new_totals) rs->ops->invert(s->exists, width);
+    if (new_totals) turn_over(s);
     normalize(rs, s, rgb);
 }

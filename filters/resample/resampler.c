@@ -67,6 +67,33 @@ static bool build_weights(wf_resampler *rs, char *why, size_t why_size) {
     return false;
 }
 
+/* Additions between the sums of a line and its pixels. */
+static int line_additions(const wf_resampler *rs, const wf_weights *w, wf_span taps) {
+    int strands = 0, sums = 0, most_sums = 0;
+    for (int t = taps.first; t < taps.end; t++) {
+        bool begins = t == taps.first || w->taps[t].kernel != w->taps[t - 1].kernel;
+        if (begins) strands += wf_kernel_strands(rs, w->taps[t].kernel);
+        sums = begins ? 1 : sums + 1;
+        if (sums > most_sums) most_sums = sums;
+    }
+    return strands + most_sums;
+}
+
+/* Quick fields are those of pictures, of which video has many, on rasters of like columns. */
+static void count_additions(wf_resampler *rs) {
+    const float *background = rs->desc.background;
+    bool black = background[0] == 0 && background[1] == 0 && background[2] == 0;
+    bool can = rs->desc.floats && rs->desc.channels == 3 && rs->phases == 1 && rs->polyphase &&
+               black && rs->kernels[0].weight;
+    for (int parity = 0; can && parity < 2; parity++) {
+        const wf_weights *w = &rs->weights[parity];
+        for (int line = 0; line < w->lines; line++) {
+            int additions = line_additions(rs, w, w->line_taps[line]);
+            if (additions > rs->line_additions) rs->line_additions = additions;
+        }
+    }
+}
+
 bool wf_resampler_new(const wf_resample_desc *desc, wf_resampler **out, char *why,
                       size_t why_size) {
     wf_resampler *rs = calloc(1, sizeof *rs);
@@ -79,6 +106,7 @@ bool wf_resampler_new(const wf_resample_desc *desc, wf_resampler **out, char *wh
         wf_resampler_free(rs);
         return false;
     }
+    count_additions(rs);
     *out = rs;
     return true;
 }

@@ -9,7 +9,7 @@
 
 /* Subframes to fields (filters/README.md, Weights), in the order that suits chunked files:
  * bands of input rows from top to bottom, and within a band the subframes in time. A band is
- * summed in double by one thread; different bands of a field may be summed at once. When all
+ * summed by one thread; different bands of a field may be summed at once. When all
  * bands have seen all the subframes of a field's window, its lines are finished, in any order,
  * by any threads. The bits of the result depend on neither threads nor batches. */
 
@@ -18,7 +18,9 @@ typedef struct wf_resample_desc {
     wf_aperture aperture;
     wf_timing_desc timing;
     wf_fitting x, y;
-    int channels;               /* 3: R G B; 4: and alpha, over the background */
+    int channels; /* 3: R G B; 4: and alpha, over the background */
+    bool floats;  /* all input has float samples, of no fewer channels: fields that see few
+                     samples a pixel are summed in float */
     float background[3];        /* scene-linear */
     int band_rows, band_origin; /* bands begin at rows band_origin + n band_rows */
 } wf_resample_desc;

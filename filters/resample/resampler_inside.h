@@ -10,7 +10,12 @@
 /* A field is added up in sums: rows of input columns, in double. There is one sum for each
  * input row where the aperture couples u and v but not v and t (`shaped` without scan skew),
  * else one for each output line that a band of input rows reaches. Terms say which rows add to
- * which sums; taps say which sums, each through a horizontal kernel, make which line. */
+ * which sums; taps say which sums, each through a horizontal kernel, make which line.
+ *
+ * Quick fields are summed in float: those of which each sample meets so few additions on its
+ * way to a pixel that these, and four roundings of products and weights, of 2^-24 each, are
+ * within 1e-6 of the sum of magnitudes. */
+#define WF_QUICK_ADDITIONS 12
 
 /* Row `row` adds to sum `sum` with `weight` times the weight of its instant. */
 typedef struct wf_term {
@@ -52,6 +57,7 @@ typedef struct wf_weights {
                                          its band alone */
     int term_count, tap_count, sum_count;
     int most_sums;    /* of any one band */
+    int most_terms;   /* of any one sum */
     int most_kernels; /* that any one line takes sums through */
 } wf_weights;
 
@@ -71,6 +77,8 @@ struct wf_resampler {
     bool polyphase;
     wf_kernel *kernels;
     int kernel_count, kernel_capacity;
+    int line_additions; /* of sums and strands, on the way to a pixel that has most; 0: no field
+                           is quick */
     const wf_row_ops *ops;
 };
 
@@ -88,6 +96,9 @@ int wf_kernel_for(wf_resampler *rs, double v0, double v1);
 /* Computes the kernels that are kept, once both parities have asked for all of theirs. False:
  * no memory. */
 bool wf_kernels_keep(wf_resampler *rs);
+
+/* Pixels of the phase that has most take so many cells of the kernel, which is kept. */
+int wf_kernel_strands(const wf_resampler *rs, int kernel);
 
 /* The kernel's arrays, filled: those that are kept, or computed into scratch where keeping all
  * of them would take too much memory. */
@@ -108,7 +119,9 @@ struct wf_field {
     wf_window window;
     wf_moment *moments; /* [lines, or 1 without scan skew][window.count] */
     float *done;        /* [sums][channels][lanes][lane_length], once all has been added */
-    double *carry;      /* [sums][channels][columns], while more is to come */
+    bool quick;         /* sums are of float */
+    double *carry;      /* [sums][channels][columns], while more is to come; of floats in the
+                           same places */
     bool carried;       /* carry holds something */
     bool last;          /* the batch in hand completes the window */
     bool complete;
@@ -125,7 +138,10 @@ typedef struct wf_held {
     const wf_field *field; /* NULL: there are none */
     int64_t index;         /* of the field */
     wf_span sums;
-    float *done; /* [slot_sums][channels][lanes][lane_length], of those that are whole */
+    const float *done; /* [sums][stride], of those that are whole */
+    size_t stride;     /* wf_done_samples, or as slots lie where their sums are as lines take
+                          them */
+    float *own;        /* [slot_sums][channels][lanes][lane_length] */
 } wf_held;
 
 /* What samples that exist weigh: of all pixels through one kernel. */
@@ -139,18 +155,20 @@ struct wf_scratch {
     const wf_resampler *rs;
     size_t slot_sums;    /* most_sums of both parities */
     size_t slot_samples; /* of the sums of one slot */
-    double *sums;        /* [slots][slot_sums][channels][columns] */
-    bool *live;          /* [slots][slot_sums]: the sum has begun; others hold nothing yet */
+    double *sums; /* [slots][slot_sums][channels][columns]; of floats in the same places */
+    bool *live;   /* [slots][slot_sums]: the sum has begun; others hold nothing yet */
     wf_held held;
-    size_t most_kernels;   /* of both parities */
-    double *rows;          /* [most_kernels][lanes][lane_length] */
-    wf_strand *strands;    /* [phases][most_kernels][taps] */
-    size_t *strand_counts; /* [phases] */
-    double *picture;       /* [channels][phases][run] */
-    double *inside;        /* [width]: weights of the line in hand, of the display window */
-    double *exists;        /* [width]: and of all that exists there, turned over */
-    wf_total *totals;      /* [most_kernels]: of what inside and exists are made */
-    int total_count;       /* 0: they are to be made anew */
+    size_t most_kernels;            /* of both parities */
+    double *rows;                   /* [most_kernels][lanes][lane_length] */
+    wf_strand *strands;             /* [phases][most_kernels][taps] */
+    wf_quick_strand *quick_strands; /* [most_kernels][taps] */
+    float *quick_exists;            /* [width]: exists in float */
+    size_t *strand_counts;          /* [phases] */
+    double *picture;                /* [channels][phases][run] */
+    double *inside;   /* [width]: weights of the line in hand, of the display window */
+    double *exists;   /* [width]: and of all that exists there, turned over */
+    wf_total *totals; /* [most_kernels]: of what inside and exists are made */
+    int total_count;  /* 0: they are to be made anew */
     wf_kernel kernel;
 };
 

@@ -47,14 +47,15 @@ static void add_half(double *restrict sum, const uint16_t *restrict pixel, doubl
 
 /* What stays in registers while all that is to be added is added. */
 typedef double doubles __attribute__((vector_size(64), aligned(8), may_alias));
-typedef float floats __attribute__((vector_size(32), aligned(4), may_alias));
-enum { DOUBLES = 8, BESIDE = 4 };
+typedef float floats __attribute__((vector_size(64), aligned(4), may_alias));
+typedef float half_floats __attribute__((vector_size(32), aligned(4), may_alias));
+enum { DOUBLES = 8, FLOATS = 16, BESIDE = 4 };
 
 /* Vectors are passed between functions of this file only, which are inlined. */
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 static inline doubles wide(const float *from) {
-    return __builtin_convertvector(*(const floats *)from, doubles);
+    return __builtin_convertvector(*(const half_floats *)from, doubles);
 }
 
 static void add_floats(double *restrict sum, bool begins, const float *const *row,
@@ -71,6 +72,25 @@ static void add_floats(double *restrict sum, bool begins, const float *const *ro
     for (; i < count; i++) {
         double kept = begins ? 0 : sum[i];
         for (size_t r = 0; r < rows; r++) kept += weight[r] * (double)row[r][i];
+        sum[i] = kept;
+    }
+}
+
+static void quick_add_floats(float *restrict sum, bool begins, const float *const *row,
+                             const double *weight, size_t rows, size_t count) {
+    size_t i = 0;
+    for (; i + BESIDE * FLOATS <= count; i += BESIDE * FLOATS) {
+        floats *to = (floats *)(sum + i), kept[BESIDE];
+        for (int b = 0; b < BESIDE; b++) kept[b] = begins ? (floats){0} : to[b];
+        for (size_t r = 0; r < rows; r++) {
+            const floats *from = (const floats *)(row[r] + i);
+            for (int b = 0; b < BESIDE; b++) kept[b] += (float)weight[r] * from[b];
+        }
+        for (int b = 0; b < BESIDE; b++) to[b] = kept[b];
+    }
+    for (; i < count; i++) {
+        float kept = begins ? 0 : sum[i];
+        for (size_t r = 0; r < rows; r++) kept += (float)weight[r] * row[r][i];
         sum[i] = kept;
     }
 }
@@ -110,6 +130,30 @@ static void weave(double *restrict sum, const wf_strand *strand, size_t strands,
     }
 }
 
+static void quick_weave(float *restrict out, const wf_quick_strand *strand, size_t strands,
+                        const float *restrict scale, size_t count) {
+    size_t i = 0;
+    for (; i + BESIDE * FLOATS <= count; i += BESIDE * FLOATS) {
+        const floats *times = (const floats *)(scale + i);
+        floats *to = (floats *)(out + i), kept[BESIDE];
+        for (int b = 0; b < BESIDE; b++) kept[b] = (floats){0};
+        for (size_t s = 0; s < strands; s++) {
+            const floats *from = (const floats *)(strand[s].row + i);
+            for (int b = 0; b < BESIDE; b++) kept[b] += strand[s].weight * from[b];
+        }
+        for (int b = 0; b < BESIDE; b++) to[b] = kept[b] * times[b];
+    }
+    for (; i < count; i++) {
+        float kept = 0;
+        for (size_t s = 0; s < strands; s++) kept += strand[s].weight * strand[s].row[i];
+        out[i] = kept * scale[i];
+    }
+}
+
+static void quick_set_rows(float *sum, const float *a, const float *b, size_t count) {
+    for (size_t i = 0; i < count; i++) sum[i] = a[i] + b[i];
+}
+
 static void invert(double *row, size_t count) {
     for (size_t i = 0; i < count; i++) row[i] = 1 / row[i];
 }
@@ -119,29 +163,37 @@ static void multiply(float *restrict out, const double *restrict a, const double
     for (size_t i = 0; i < count; i++) out[i] = (float)(a[i] * b[i]);
 }
 
-static void split(float *restrict lane, const double *restrict row, size_t lanes,
-                  size_t lane_length, size_t count) {
-    for (size_t z = 0; z < lanes; z++) {
-        float *out = lane + z * lane_length;
-        size_t length = count > z ? (count - z + lanes - 1) / lanes : 0;
-        if (lanes == 1)
-            for (size_t m = 0; m < length; m++) out[m] = (float)row[m];
-        else if (lanes == 2)
-            for (size_t m = 0; m < length; m++) out[m] = (float)row[2 * m + z];
-        else
-            for (size_t m = 0; m < length; m++) out[m] = (float)row[lanes * m + z];
-        for (size_t m = length; m < lane_length; m++) out[m] = 0;
+/* Some numbers of lanes have loops of their own, of which compilers make shuffles. */
+#define SPLIT(name, type)                                                                      \
+    static void name(float *restrict lane, const type *restrict row, size_t lanes,             \
+                     size_t lane_length, size_t count) {                                       \
+        for (size_t z = 0; z < lanes; z++) {                                                   \
+            float *out = lane + z * lane_length;                                               \
+            size_t length = count > z ? (count - z + lanes - 1) / lanes : 0;                   \
+            if (lanes == 1)                                                                    \
+                for (size_t m = 0; m < length; m++) out[m] = (float)row[m];                    \
+            else if (lanes == 2)                                                               \
+                for (size_t m = 0; m < length; m++) out[m] = (float)row[2 * m + z];            \
+            else                                                                               \
+                for (size_t m = 0; m < length; m++) out[m] = (float)row[lanes * m + z];        \
+            for (size_t m = length; m < lane_length; m++) out[m] = 0;                          \
+        }                                                                                      \
     }
-}
+SPLIT(split, double)
+SPLIT(quick_split, float)
 
 const wf_row_ops WF_ISA_TABLE(wf_row_ops) = {
     .add_half = add_half,
     .add_floats = add_floats,
+    .quick_add_floats = quick_add_floats,
     .set_rows = set_rows,
     .add_row = add_row,
     .add_tap = add_tap,
     .weave = weave,
+    .quick_weave = quick_weave,
+    .quick_set_rows = quick_set_rows,
     .invert = invert,
     .multiply = multiply,
     .split = split,
+    .quick_split = quick_split,
 };

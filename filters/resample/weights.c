@@ -143,6 +143,14 @@ static void index_bands(builder *b) {
     }
 }
 
+static void count_terms(wf_weights *w) {
+    int count = 0;
+    for (int t = 0; t < w->term_count; t++) {
+        count = t && w->terms[t].sum == w->terms[t - 1].sum ? count + 1 : 1;
+        if (count > w->most_terms) w->most_terms = count;
+    }
+}
+
 static bool find_whole(wf_weights *w) {
     w->whole = malloc((size_t)w->sum_count * sizeof *w->whole);
     if (!w->whole) return false;
@@ -160,6 +168,7 @@ static bool build(builder *b) {
     int top_line = 0;
     for (int band = 0; band < b->rs->band_count; band++)
         if (!add_band(b, band, &top_line)) return false;
+    count_terms(w);
     index_taps(w);
     index_bands(b);
     return find_whole(w);

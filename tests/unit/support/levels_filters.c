@@ -46,6 +46,22 @@ static void add_floats(level_run *r) {
     level_keep_doubles(r, sum, r->count);
 }
 
+static void quick_add_floats(level_run *r) {
+    size_t rows = level_draw(r) % 6;
+    float *sum = level_floats(r, r->count);
+    double *weight = level_doubles(r, rows);
+    const float *row[6];
+    bool begins = level_draw(r) % 2;
+    for (size_t n = 0; n < rows; n++) row[n] = level_floats(r, r->count);
+    if (!r->plain)
+        wf_row_ops_at(r->level)->quick_add_floats(sum, begins, row, weight, rows, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        if (begins) sum[i] = 0;
+        for (size_t n = 0; n < rows; n++) sum[i] += (float)weight[n] * row[n][i];
+    }
+    level_keep_floats(r, sum, r->count);
+}
+
 static void set_rows(level_run *r) {
     double *sum = level_doubles(r, r->count);
     float *a = level_floats(r, r->count), *b = level_floats(r, r->count);
@@ -86,6 +102,32 @@ static void weave(level_run *r) {
     level_keep_doubles(r, sum, r->count);
 }
 
+static void quick_weave(level_run *r) {
+    size_t strands = level_draw(r) % 8;
+    float *out = level_floats(r, r->count), *row = level_floats(r, r->count + strands);
+    float *scale = level_floats(r, r->count);
+    wf_quick_strand strand[8];
+    for (size_t t = 0; t < strands; t++)
+        strand[t] = (wf_quick_strand){row + (t * 3) % (strands + 1), (float)level_number(r)};
+    if (!r->plain) wf_row_ops_at(r->level)->quick_weave(out, strand, strands, scale, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        float sum = 0;
+        for (size_t t = 0; t < strands; t++) sum += strand[t].weight * strand[t].row[i];
+        out[i] = sum * scale[i];
+    }
+    level_keep_floats(r, out, r->count);
+}
+
+/* Onto itself too. */
+static void quick_set_rows(level_run *r) {
+    float *sum = level_floats(r, r->count);
+    float *a = level_draw(r) % 2 ? sum : level_floats(r, r->count);
+    float *b = level_floats(r, r->count);
+    if (!r->plain) wf_row_ops_at(r->level)->quick_set_rows(sum, a, b, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) sum[i] = a[i] + b[i];
+    level_keep_floats(r, sum, r->count);
+}
+
 static void invert(level_run *r) {
     double *row = level_doubles(r, r->count);
     if (!r->plain) wf_row_ops_at(r->level)->invert(row, r->count);
@@ -101,25 +143,45 @@ static void multiply(level_run *r) {
     level_keep_floats(r, out, r->count);
 }
 
-static void split(level_run *r) {
+static void split_either(level_run *r, bool quick) {
     size_t lanes = 1 + level_draw(r) % 5, length = (r->count + lanes - 1) / lanes;
     length += level_draw(r) % 3;
     double *row = level_doubles(r, r->count);
+    float *quick_row = level_floats(r, r->count);
     float *lane = level_buffer(r, lanes * length * sizeof *lane);
-    if (!r->plain) wf_row_ops_at(r->level)->split(lane, row, lanes, length, r->count);
+    const wf_row_ops *ops = wf_row_ops_at(r->level);
+    if (!r->plain && quick) ops->quick_split(lane, quick_row, lanes, length, r->count);
+    if (!r->plain && !quick) ops->split(lane, row, lanes, length, r->count);
     for (size_t n = 0; r->plain && n < lanes * length; n++) {
         size_t at = n % length * lanes + n / length;
-        lane[n] = at < r->count ? (float)row[at] : 0;
+        lane[n] = at >= r->count ? 0 : quick ? quick_row[at] : (float)row[at];
     }
     level_keep_floats(r, lane, lanes * length);
 }
 
+static void split(level_run *r) {
+    split_either(r, false);
+}
+
+static void quick_split(level_run *r) {
+    split_either(r, true);
+}
+
 static const level_row rows[] = {
-    {"rows.add_half", add_half, true, 0},     {"rows.add_half of all", add_all_halves, true, 0},
-    {"rows.add_floats", add_floats, true, 0}, {"rows.set_rows", set_rows, true, 0},
-    {"rows.add_row", add_row, true, 0},       {"rows.add_tap", add_tap, true, 0},
-    {"rows.invert", invert, true, 0},         {"rows.multiply", multiply, true, 0},
-    {"rows.split", split, true, 0},           {"rows.weave", weave, true, 0},
+    {"rows.add_half", add_half, true, 0},
+    {"rows.add_half of all", add_all_halves, true, 0},
+    {"rows.add_floats", add_floats, true, 0},
+    {"rows.set_rows", set_rows, true, 0},
+    {"rows.add_row", add_row, true, 0},
+    {"rows.add_tap", add_tap, true, 0},
+    {"rows.invert", invert, true, 0},
+    {"rows.multiply", multiply, true, 0},
+    {"rows.split", split, true, 0},
+    {"rows.weave", weave, true, 0},
+    {"rows.quick_weave", quick_weave, true, 0},
+    {"rows.quick_set_rows", quick_set_rows, true, 0},
+    {"rows.quick_add_floats", quick_add_floats, true, 0},
+    {"rows.quick_split", quick_split, true, 0},
 };
 
 /* ---- Apertures ---- */
