@@ -19,6 +19,8 @@ struct wf_nearest {
     wf_crew *crew;
     wf_nearest_desc desc;
     wf_least *least;
+    wf_seen *seen;   /* NULL, as is the next, where the limit is light */
+    float *limits;   /* [lines][width]: of the field that is being solved */
     solver *solvers; /* [threads] */
     float *planes;   /* [fields][planes][lines][width]: luminance; or R, G, B and alpha */
     float *own;      /* [fields][own lines][3][width]: R'G'B'; NULL of channels */
@@ -47,7 +49,8 @@ static size_t own_samples(const wf_nearest_desc *d) {
 static wf_least_desc least_of(const wf_nearest_desc *d) {
     return (wf_least_desc){.lines = d->raster->lines,
                            .weight = d->weight,
-                           .limit = d->limit,
+                           .limit =
+                               d->limit, /* of what is seen pixels have limits of their own */
                            .most = (double)d->shown.most};
 }
 
@@ -55,7 +58,8 @@ size_t wf_nearest_bytes(const wf_nearest_desc *d, int threads) {
     if (!d->held) return 0;
     size_t field = (size_t)planes_of(d) * plane_samples(d) + own_samples(d);
     size_t tile = (size_t)d->raster->lines * wf_least_tile_px * sizeof(double);
-    return (size_t)d->fields * field * sizeof(float) + (size_t)threads * 16 * tile;
+    size_t limits = d->limit_is_seen ? plane_samples(d) : 0;
+    return ((size_t)d->fields * field + limits) * sizeof(float) + (size_t)threads * 16 * tile;
 }
 
 static bool make_solver(const wf_nearest *f, solver *s) {
@@ -75,6 +79,11 @@ static bool make(wf_nearest *f) {
     f->planes = malloc(fields * (size_t)planes_of(d) * plane_samples(d) * sizeof *f->planes);
     f->own = malloc((fields * own_samples(d) + 1) * sizeof *f->own);
     bool good = f->least && f->solvers && f->planes && f->own;
+    if (d->limit_is_seen) {
+        f->seen = wf_seen_new(&d->viewing);
+        f->limits = malloc(plane_samples(d) * sizeof *f->limits);
+        good = good && f->seen && f->limits;
+    }
     for (int t = 0; good && t < f->crew->threads; t++) good = make_solver(f, &f->solvers[t]);
     return good;
 }
@@ -103,6 +112,8 @@ void wf_nearest_free(wf_nearest *f) {
         free(f->solvers[t].clipped);
     }
     wf_least_free(f->least);
+    wf_seen_free(f->seen);
+    free(f->limits);
     free(f->solvers);
     free(f->planes);
     free(f->own);
@@ -187,8 +198,8 @@ static void solve_tile(void *user, wf_worker *worker, int n) {
     solver *s = &f->solvers[worker->number];
     size_t width = width_of(&f->desc);
     float *plane = plane_of(f, f->field, n / tiles_of(f));
-    wf_least_tile(f->least, s->scratch, n % tiles_of(f), (int)width, width, plane, plane,
-                  &s->counts);
+    wf_least_tile_within(f->least, s->scratch, n % tiles_of(f), (int)width, width, plane,
+                         f->limits, plane, &s->counts);
 }
 
 static wf_least_counts counts_of(const wf_nearest *f) {
@@ -203,15 +214,17 @@ static wf_least_counts counts_of(const wf_nearest *f) {
 
 weft_status wf_nearest_solve(wf_nearest *f, int64_t field, weft_error *err) {
     f->field = field;
+    if (f->seen) wf_seen_bound(f->seen, plane_of(f, field, 0), f->desc.limit, f->limits);
     wf_crew_each(f->crew, planes_of(&f->desc) * tiles_of(f), 1, solve_tile, f);
     weft_status status = wf_crew_status(f->crew, err);
     wf_least_counts counts = counts_of(f);
     if (status || !counts.failed) return status;
     return wf_fail(err, WEFT_FAILED,
                    "field %" PRId64 ": of %" PRId64
-                   " columns the nearest picture within --flicker-limit %g was not found to "
+                   " columns the nearest picture within --flicker-limit %s%g was not found to "
                    "the accuracy that is promised; take a higher limit",
-                   field, counts.failed, f->desc.limit);
+                   field, counts.failed, f->desc.limit_is_seen ? "visible:" : "",
+                   f->desc.limit);
 }
 
 void wf_nearest_tell(const wf_nearest *f, wf_report *report) {
@@ -219,6 +232,7 @@ void wf_nearest_tell(const wf_nearest *f, wf_report *report) {
     report->flicker.held = true;
     report->flicker.weight = f->desc.weight;
     report->flicker.limit = limited(f) ? f->desc.limit : 0;
+    report->flicker.limit_is_seen = f->desc.limit_is_seen;
     report->flicker.clipped = counts.clipped;
     report->flicker.columns_solved = counts.solved;
 }

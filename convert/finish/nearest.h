@@ -5,6 +5,7 @@
 #include "convert/finish/crew.h"
 #include "convert/job/report.h"
 #include "filters/least/least.h"
+#include "filters/seen/seen.h"
 
 /* Fields whose flicker is weighed or bounded: lines of all the frame at a field's instant come
  * in, the nearest picture is found (filters/least), and the field's own lines of it go out. */
@@ -13,6 +14,8 @@
 typedef struct wf_nearest_desc {
     bool held;
     double weight, limit; /* filters/least/least.h */
+    bool limit_is_seen;   /* limit is in just noticeable differences, for: */
+    wf_viewing viewing;
     bool channels; /* R, G, B and alpha alike, as linear light; else luminance as shown */
     wf_displayed shown;
     const wf_raster *raster; /* as it is written: which lines are a field's own */

@@ -201,6 +201,10 @@ weft_status wf_job_check_flicker(const weft_job *job, weft_error *err) {
          "--flicker-limit bounds the light of a whole picture, and beside alpha it is not "
          "known "
          "what lies behind; with --alpha-out and --key give --flicker-weight"},
+        {!(limited && job->limit_is_seen) && wf_ratio_given(job->view_distance),
+         "--view-distance is for what is seen of flicker; give --flicker-limit visible:N too"},
+        {!(limited && job->limit_is_seen) && wf_ratio_given(job->peak),
+         "--peak is for what is seen of flicker; give --flicker-limit visible:N too"},
     };
     return check_rules(rules, sizeof rules / sizeof *rules, err);
 }

@@ -19,10 +19,13 @@ struct weft_job {
     char *output;
 
     wf_raster raster;
-    wf_aperture aperture;          /* its width is the option's if one was given */
-    bool aperture_given;           /* else it is the preset (wf_job_settle) */
-    wf_rational flicker_weight;    /* {0, 1}: it weighs nothing */
-    wf_rational flicker_limit;     /* {0,0}: none */
+    wf_aperture aperture;       /* its width is the option's if one was given */
+    bool aperture_given;        /* else it is the preset (wf_job_settle) */
+    wf_rational flicker_weight; /* {0, 1}: it weighs nothing */
+    wf_rational flicker_limit;  /* {0,0}: none */
+    bool limit_is_seen; /* it is in just noticeable differences; else in light, white being 1 */
+    wf_rational view_distance;     /* picture heights, for what is seen; {0,0}: as usual */
+    wf_rational peak;              /* cd/m2 of white, for the same; {0,0}: as usual */
     wf_rational temporal_width;    /* field periods; {0,0}: the aperture's */
     bool width_given, angle_given; /* which of the two options that set it were */
     wf_position shutter_position;

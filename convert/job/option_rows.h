@@ -29,9 +29,9 @@ struct wf_option_row {
 /* Setters. Each stores a value in the member of a job that its row points at, or says what the
  * option takes. */
 wf_option_set wf_set_text, wf_set_flag, wf_set_choice, wf_set_switch, wf_set_bits, wf_set_ratio,
-    wf_set_stops, wf_set_rate, wf_set_width, wf_set_angle, wf_set_threads, wf_set_whole,
-    wf_set_param, wf_set_oversample, wf_set_raster, wf_set_aperture, wf_set_background,
-    wf_set_chunk, wf_set_size, wf_set_timecode, wf_set_date, wf_set_frames,
+    wf_set_flicker_limit, wf_set_stops, wf_set_rate, wf_set_width, wf_set_angle, wf_set_threads,
+    wf_set_whole, wf_set_param, wf_set_oversample, wf_set_raster, wf_set_aperture,
+    wf_set_background, wf_set_chunk, wf_set_size, wf_set_timecode, wf_set_date, wf_set_frames,
     wf_set_output_frames, wf_set_audio, wf_set_codec, wf_set_dimensions;
 
 /* Frees a text that wf_set_text has made, and the values that wf_set_param has. */

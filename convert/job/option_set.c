@@ -109,6 +109,26 @@ weft_status wf_set_ratio(weft_job *job, const wf_option_row *row, const char *va
                                                              : refuse_number(row, value, err);
 }
 
+#define LEAST_SEEN 0.05 /* of a just noticeable difference */
+
+/* Light, or after "visible:" what is seen. */
+weft_status wf_set_flicker_limit(weft_job *job, const wf_option_row *row, const char *value,
+                                 weft_error *err) {
+    static const char word[] = "visible:";
+    bool seen = !strncmp(value, word, sizeof word - 1);
+    wf_rational limit;
+    if (!parse_within(row, seen ? value + sizeof word - 1 : value, false, &limit) ||
+        (seen && wf_ratio_value(limit) < LEAST_SEEN)) {
+        char right[160];
+        snprintf(right, sizeof right, "%s, E from %.10g to %.10g%s and N from %g",
+                 row->shown.takes, row->low, row->high, row->what, LEAST_SEEN);
+        return refuse(row, value, right, err);
+    }
+    job->flicker_limit = limit;
+    job->limit_is_seen = seen;
+    return WEFT_OK;
+}
+
 /* Either way from 0. */
 weft_status wf_set_stops(weft_job *job, const wf_option_row *row, const char *value,
                          weft_error *err) {

@@ -45,10 +45,18 @@ static const wf_option_row rows[] = {
         "How much interline flicker weighs against sharpness: of f cycles a line 1 / (1 + MU "
         "sin^4(pi f)) is left of what the aperture shows, line unless another is named.",
         set_ratio, AT(flicker_weight), FROM(0, 1e6, ", such as 4"), INITIAL),
-    ROW(shape, JOBS, "flicker-limit", "E", NULL,
-        "How much light may flicker between lines at most, 1 being white: the nearest picture "
-        "that holds it is made, sharp wherever it does so already.",
-        set_ratio, AT(flicker_limit), FROM(0.0005, 100, ", such as 0.02")),
+    ROW(shape, JOBS, "flicker-limit", "E|visible:N", NULL,
+        "How much light may flicker between lines at most, 1 being white, or how much of that "
+        "may be seen, in just noticeable differences: the nearest picture that holds it is "
+        "made, sharp wherever it does so already.",
+        set_flicker_limit, AT(flicker_limit),
+        FROM(0.0005, 100, ", such as 0.02 or visible:1,")),
+    ROW(shape, JOBS, "view-distance", "N", "6, of more than 608 lines 3",
+        "How far the eye is, in heights of the picture, for --flicker-limit visible:N.",
+        set_ratio, AT(view_distance), FROM(0.25, 50, " (heights), such as 3")),
+    ROW(shape, JOBS, "peak", "CD", "100, of PQ and HLG 203",
+        "The luminance of white on the display, in cd/m2, for the same.", set_ratio, AT(peak),
+        FROM(1, 10000, " (cd/m2), such as 100")),
     ROW(shape, CONVERT, "fit", "stretch|crop|pad", "stretch",
         "What to do with an input of another shape: stretch it, or scale it evenly and crop or "
         "pad.",

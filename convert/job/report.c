@@ -86,7 +86,9 @@ static void add_flicker(wf_json *json, const wf_report_flicker *flicker) {
     wf_json_open(json, "flicker", '{');
     if (flicker->held) {
         wf_json_real(json, "weight", flicker->weight);
-        wf_json_real(json, "limit", flicker->limit > 0 ? flicker->limit : NAN);
+        bool light = flicker->limit > 0 && !flicker->limit_is_seen;
+        wf_json_real(json, "limit", light ? flicker->limit : NAN);
+        wf_json_real(json, "limit_jnd", flicker->limit_is_seen ? flicker->limit : NAN);
         wf_json_int(json, "clipped", flicker->clipped);
         wf_json_int(json, "columns_solved", flicker->columns_solved);
     }

@@ -24,6 +24,7 @@ typedef struct wf_report_legal {
 typedef struct wf_report_flicker {
     bool held;            /* false: it was not, and "flicker" is {} */
     double weight, limit; /* limit 0: none */
+    bool limit_is_seen;   /* it is in just noticeable differences */
     int64_t clipped; /* pixels of all lines of fields whose light was brought to its range */
     int64_t columns_solved; /* of fields, that did not hold the limit as they were */
 } wf_report_flicker;

@@ -82,10 +82,17 @@ static void rows_are_complete(void **state) {
 /* A preset that is a value, and not a saying for people, changes nothing in a new job. */
 static void presets_are_what_a_new_job_has(void **state) {
     (void)state;
-    static const char *const sayings[] = {
-        "from the files", "the aperture's",  "all",
-        "the output's",   "the container's", "the input's, or 00:00:00:00",
-        "one a channel",  "not said",        "shaped; line where flicker is held"};
+    static const char *const sayings[] = {"from the files",
+                                          "the aperture's",
+                                          "all",
+                                          "the output's",
+                                          "the container's",
+                                          "the input's, or 00:00:00:00",
+                                          "one a channel",
+                                          "not said",
+                                          "shaped; line where flicker is held",
+                                          "6, of more than 608 lines 3",
+                                          "100, of PQ and HLG 203"};
     weft_option option;
     weft_job *fresh = new_job(), *job = new_job();
     for (size_t i = 0; weft_option_at(i, &option); i++) {
