@@ -57,6 +57,17 @@ static bool sum_data(const exam *x, uint32_t *sum, uint64_t bytes) {
     return true;
 }
 
+/* Pictures that are written to one file one after the other, as ffmpeg's image2pipe does. */
+static weft_status examine_after_png(const exam *x, uint64_t at) {
+    uint8_t head[PNG_SIGNATURE_BYTES];
+    if (!read_at(x, at, head, sizeof head) || memcmp(head, "\x89PNG\r\n\x1a\n", sizeof head))
+        return WEFT_OK;
+    return wf_fail(x->err, WEFT_FAILED,
+                   "%.700s: it holds several PNG pictures, one after the other; "
+                   "'ffmpeg -f png_pipe -i IN OUT.%%04d.png' makes files of them",
+                   x->path);
+}
+
 /* The decoder stops at the last line, and so sees neither the end of the data nor its
  * checksum. */
 static weft_status examine_png(const exam *x) {
@@ -72,8 +83,8 @@ static weft_status examine_png(const exam *x) {
             return damaged(x, "it cannot be read to its end");
         if (sum != wf_big_endian(tail, 4))
             return damaged(x, "the checksum of a chunk is wrong");
-        if (!memcmp(head + 4, "IEND", 4)) return WEFT_OK;
         at += bytes + PNG_FRAME_BYTES;
+        if (!memcmp(head + 4, "IEND", 4)) return examine_after_png(x, at);
     }
 }
 
@@ -162,6 +173,11 @@ static weft_status examine_tiff(const exam *x) {
     weft_status status = wf_refuse_kind(x->path, x->err);
     if (status) return status;
     if (!wf_tiff_tags_read(x->file, &tags)) return cut_short(x, "it has no directory");
+    if (tags.more_pages)
+        return wf_fail(x->err, WEFT_FAILED,
+                       "%.700s: it is a TIFF of several pictures, which weft does not read; "
+                       "'oiiotool IN --subimage 0 -o OUT.tif' makes a TIFF of the first",
+                       x->path);
     bool negative = tags.photometric == WF_TIFF_WHITE_IS_ZERO && tags.bits > 8;
     if (!negative && tags.photometric < WF_TIFF_CIELAB) return WEFT_OK;
     return wf_fail(x->err, WEFT_FAILED,

@@ -5,6 +5,9 @@
 #include <string.h>
 
 #define MOST_ENTRIES 512
+#define MOST_PAGES   64
+#define REDUCED      1 /* bits of NewSubfileType */
+#define MASK         4
 #define SHORT        3
 #define LONG         4
 #define RATIONAL     5
@@ -85,6 +88,15 @@ typedef struct found {
 
 static void take_entry(const tiff *t, const entry *e, wf_tiff_tags *out, found *f) {
     switch (e->tag) {
+    case 254:
+        take_number(t, e, &out->subfile);
+        break;
+    case 256:
+        take_number(t, e, &out->width_px);
+        break;
+    case 257:
+        take_number(t, e, &out->lines);
+        break;
     case 258:
         take_number(t, e, &out->bits);
         break;
@@ -108,7 +120,8 @@ static void take_entry(const tiff *t, const entry *e, wf_tiff_tags *out, found *
     }
 }
 
-static bool read_directory(const tiff *t, uint64_t at, wf_tiff_tags *out) {
+/* Reads a directory, and where the next one is: 0 if there is none. */
+static bool read_directory(const tiff *t, uint64_t at, wf_tiff_tags *out, uint64_t *next) {
     uint8_t bytes[20];
     found f = {false, false};
     size_t count_bytes = t->big_tiff ? 8 : 2, entry_bytes = t->big_tiff ? 20 : 12;
@@ -125,7 +138,23 @@ static bool read_directory(const tiff *t, uint64_t at, wf_tiff_tags *out) {
         take_entry(t, &e, out, &f);
     }
     out->has_chromaticities = f.white && f.primaries;
+    size_t offset_bytes = t->big_tiff ? 8 : 4;
+    *next = count <= MOST_ENTRIES && read_at(t, at, bytes, offset_bytes)
+                ? number(t, bytes, offset_bytes)
+                : 0;
     return true;
+}
+
+/* Whether there is another picture of the size of the first, which is no mask: smaller ones are
+ * made of it. */
+static bool has_page(const tiff *t, uint64_t at, const wf_tiff_tags *first) {
+    for (int i = 0; at && i < MOST_PAGES; i++) {
+        wf_tiff_tags tags = {0};
+        if (!read_directory(t, at, &tags, &at)) return false;
+        bool same = tags.width_px == first->width_px && tags.lines == first->lines;
+        if (same && !(tags.subfile & (REDUCED | MASK))) return true;
+    }
+    return false;
 }
 
 bool wf_tiff_tags_read(FILE *file, wf_tiff_tags *out) {
@@ -136,6 +165,8 @@ bool wf_tiff_tags_read(FILE *file, wf_tiff_tags *out) {
     t.little = head[0] == 'I';
     t.big_tiff = number(&t, head + 2, 2) == 43;
     if (t.big_tiff && !read_at(&t, 0, head, 16)) return false;
-    return read_directory(&t, t.big_tiff ? number(&t, head + 8, 8) : number(&t, head + 4, 4),
-                          out);
+    uint64_t at = t.big_tiff ? number(&t, head + 8, 8) : number(&t, head + 4, 4);
+    if (!read_directory(&t, at, out, &at)) return false;
+    out->more_pages = has_page(&t, at, out);
+    return true;
 }

@@ -17,6 +17,9 @@ typedef struct wf_tiff_tags {
     bool has_chromaticities; /* WhitePoint and PrimaryChromaticities are: x and y of red, green,
                                 blue and white */
     double chromaticities[8];
+    int subfile;         /* bits of NewSubfileType */
+    int width_px, lines; /* 0: not said */
+    bool more_pages;     /* another directory has a picture of that size too */
 } wf_tiff_tags;
 
 /* Reads them from any place of the file: TIFF and BigTIFF, of either byte order. False if it

@@ -13,13 +13,16 @@ static void take_space(const wf_space *space, wf_file_colors *out) {
     out->primaries_said = out->transfer_said = true;
 }
 
-/* weft:colorSpace of whoever wrote it. */
-static bool by_space(const wf_color_said *said, wf_file_colors *out) {
+static bool by_name(const char *name, wf_file_colors *out) {
     char ignored[1024];
-    const wf_space *space =
-        *said->space ? wf_space_find(said->space, ignored, sizeof ignored) : NULL;
+    const wf_space *space = *name ? wf_space_find(name, ignored, sizeof ignored) : NULL;
     if (space) take_space(space, out);
     return space;
+}
+
+/* weft:colorSpace of whoever wrote it. */
+static bool by_space(const wf_color_said *said, wf_file_colors *out) {
+    return by_name(said->space, out);
 }
 
 /* Identifiers of the Color Interop Forum: a curve, primaries and whether it is a scene's or a
@@ -52,7 +55,7 @@ static const struct {
 static bool by_interop(const wf_color_said *said, wf_file_colors *out) {
     char curve[16], primaries[16], state[16];
     if (sscanf(said->interop, "%15[^_]_%15[^_]_%15s", curve, primaries, state) != 3)
-        return false;
+        return by_name(said->interop, out); /* "ACEScg", as some write there */
     size_t c = 0, p = 0, curves = sizeof interop_curves / sizeof *interop_curves,
            all = sizeof interop_primaries / sizeof *interop_primaries;
     while (c < curves && strcmp(interop_curves[c].name, curve)) c++;

@@ -51,5 +51,16 @@ check "are the same" first_code o.y4m 526 12
 printf 'RIFF\x1e\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x3f\0\0\x1f\0\0ANIM\0\0\0\0' >a.webp
 check "animated WebP" fails "animated WebP.*convert IN -coalesce.*--subframe-rate" weft convert a.webp $box -o no.y4m
 check "by info" fails "animated WebP" weft info a.webp
+cat one.png one.png >both.png
+check "PNG after PNG" fails "several PNG.*png_pipe" weft convert both.png $box --subframe-rate 50 -o no.y4m
+if has oiiotool; then
+    oiiotool --create 64x32 3 --fill:color=.8,.4,.2 64x32+0+0 -d uint8 -o page.tif
+    oiiotool page.tif page.tif --siappend -o pages.tif
+    check "pages of TIFF" fails "several pictures.*--subimage 0" weft convert pages.tif $box --subframe-rate 50 -o no.y4m
+    oiiotool pages.tif --subimage 0 -o first.tif
+    check "the first of them" exits 0 weft convert first.tif $box --raster 64x32@50p --subframe-rate 50 -o o.y4m
+    oiiotool page.tif -otex levels.tif
+    check "smaller forms of a picture are none" exits 0 weft convert levels.tif $box --raster 64x32@50p --subframe-rate 50 -o o.y4m
+fi
 check "nothing is left" [ ! -e no.y4m ]
 finish

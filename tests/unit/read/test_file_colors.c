@@ -35,6 +35,7 @@ static const struct {
     {{.floats = true, .interop = "srgb_rec709_scene"}, "sRGB", "sRGB", "file", "file"},
     {{.floats = true, .interop = "pq_rec2020_display"}, "rec2100-pq", "PQ", "file", "file"},
     {{.floats = true, .interop = "lin_p3d65_scene"}, "lin_p3d65", "linear", "file", "file"},
+    {{.floats = true, .interop = "ACEScg"}, "ACEScg", "linear", "file", "file"},
     {{.floats = true, .interop = "unknown", AP1}, "ACEScg", "linear", "file", "default"},
     {{.bits = 8}, "sRGB", "sRGB", "default", "default"},
     {{.bits = 8, .srgb = true, .gamma = 0.5}, "sRGB", "sRGB", "file", "file"},
