@@ -285,7 +285,7 @@ void wf_frames_line(wf_frames *f, wf_worker *worker, int64_t field, int line) {
     float *alpha = wf_frames_alpha(f, worker, field, line);
     if (!alpha || !f->flicker) color_line(f, rgb, alpha);
     if (f->flicker)
-        wf_nearest_put(f->flicker, field, line, rgb, alpha);
+        wf_nearest_put(f->flicker, worker, field, line, rgb, alpha);
     else
         code_line(f, worker, field, line, rgb, alpha);
     worker->color_s += wf_now_s() - start;

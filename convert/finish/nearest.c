@@ -7,11 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { LUMINANCE = 3 }; /* after R', G' and B' */
+
 /* A worker's own. */
 typedef struct solver {
     wf_least_scratch *scratch;
     wf_least_counts counts;
-    float *light;  /* [2][width]: luminance as it was; R, G or B as it was written */
+    float
+        *light; /* [5][width]: of pixels that change R'G'B', luminance as it was and will be */
+    int *place; /* [width]: which these are */
     bool *clipped; /* [width] */
 } solver;
 
@@ -23,7 +27,8 @@ struct wf_nearest {
     float *limits;   /* [lines][width]: of the field that is being solved */
     solver *solvers; /* [threads] */
     float *planes;   /* [fields][planes][lines][width]: luminance; or R, G, B and alpha */
-    float *own;      /* [fields][own lines][3][width]: R'G'B'; NULL of channels */
+    float *own;      /* [fields][own lines][4][width]: R'G'B' and its luminance, which is NaN
+                        where it was clipped; NULL of channels */
     _Atomic int64_t clipped;
     int64_t field; /* that is being solved */
 };
@@ -43,7 +48,7 @@ static size_t plane_samples(const wf_nearest_desc *d) {
 }
 
 static size_t own_samples(const wf_nearest_desc *d) {
-    return d->channels ? 0 : 3 * width_of(d) * ((size_t)d->raster->lines / 2 + 1);
+    return d->channels ? 0 : (LUMINANCE + 1) * width_of(d) * ((size_t)d->raster->lines / 2 + 1);
 }
 
 static wf_least_desc least_of(const wf_nearest_desc *d) {
@@ -65,9 +70,10 @@ size_t wf_nearest_bytes(const wf_nearest_desc *d, int threads) {
 static bool make_solver(const wf_nearest *f, solver *s) {
     size_t width = width_of(&f->desc);
     s->scratch = wf_least_scratch_new(f->least);
-    s->light = malloc(2 * width * sizeof *s->light);
+    s->light = malloc(5 * width * sizeof *s->light);
+    s->place = malloc(width * sizeof *s->place);
     s->clipped = malloc(width * sizeof *s->clipped);
-    return s->scratch && s->light && s->clipped;
+    return s->scratch && s->light && s->place && s->clipped;
 }
 
 static bool make(wf_nearest *f) {
@@ -109,6 +115,7 @@ void wf_nearest_free(wf_nearest *f) {
     for (int t = 0; f->solvers && t < f->crew->threads; t++) {
         wf_least_scratch_free(f->solvers[t].scratch);
         free(f->solvers[t].light);
+        free(f->solvers[t].place);
         free(f->solvers[t].clipped);
     }
     wf_least_free(f->least);
@@ -132,12 +139,12 @@ static float *line_of(const wf_nearest *f, int64_t field, int plane, int line) {
     return plane_of(f, field, plane) + (size_t)line * width_of(&f->desc);
 }
 
-/* R, G or B of one of the field's own lines; NULL of other lines. */
+/* R', G', B' or luminance of one of the field's own lines; NULL of other lines. */
 static float *own_line(const wf_nearest *f, int64_t field, int line, int c) {
     const wf_nearest_desc *d = &f->desc;
     int step = wf_raster_line_step(d->raster), from = line - wf_raster_parity(d->raster, field);
     if (from % step) return NULL;
-    size_t at = 3 * (size_t)(from / step) + (size_t)c;
+    size_t at = (LUMINANCE + 1) * (size_t)(from / step) + (size_t)c;
     return f->own + (size_t)(field % d->fields) * own_samples(d) + at * width_of(d);
 }
 
@@ -145,8 +152,14 @@ static bool limited(const wf_nearest *f) {
     return f->desc.limit < HUGE_VAL;
 }
 
-void wf_nearest_put(wf_nearest *f, int64_t field, int line, float *const rgb[3],
-                    const float *alpha) {
+/* Luminance as it was, of a field's own line. */
+static void keep_luminance(const solver *s, const float *from, float *own, size_t width) {
+    for (size_t x = 0; x < width; x++) own[x] = s->clipped[x] ? NAN : from[x];
+}
+
+void wf_nearest_put(wf_nearest *f, const wf_worker *worker, int64_t field, int line,
+                    float *const rgb[3], const float *alpha) {
+    const solver *s = &f->solvers[worker->number];
     size_t width = width_of(&f->desc), bytes = width * sizeof(float);
     if (f->desc.channels) {
         for (int c = 0; c < 3; c++) memcpy(line_of(f, field, c, line), rgb[c], bytes);
@@ -157,34 +170,51 @@ void wf_nearest_put(wf_nearest *f, int64_t field, int line, float *const rgb[3],
         float *own = own_line(f, field, line, c);
         if (own) memcpy(own, rgb[c], bytes);
     }
-    f->clipped += wf_displayed_light(&f->desc.shown, rgb, line_of(f, field, 0, line), NULL,
-                                     limited(f), width);
+    float *luminance = line_of(f, field, 0, line), *own = own_line(f, field, line, LUMINANCE);
+    f->clipped +=
+        wf_displayed_light(&f->desc.shown, rgb, luminance, s->clipped, limited(f), width);
+    if (own) keep_luminance(s, luminance, own, width);
 }
 
-/* Pixels that are as they were keep the bits that they had. */
-static void keep_unchanged(const solver *s, const float *from, const float *to,
-                           const float *written, float *out, size_t width) {
-    for (size_t x = 0; x < width; x++)
-        out[x] = to[x] == from[x] && !s->clipped[x] ? written[x] : out[x];
+/* Pixels whose luminance changes, or was clipped; others keep the bits that they had. */
+static size_t find_changes(const solver *s, const float *from, const float *to, size_t width) {
+    size_t count = 0;
+    for (size_t x = 0; x < width; x++) {
+        s->place[count] = (int)x;
+        count += to[x] != from[x];
+    }
+    return count;
+}
+
+/* R'G'B' of these pixels, of which luminance is to be to[]. */
+static void change_pixels(const wf_nearest *f, const solver *s, size_t count, const float *to,
+                          float *const rgb[3]) {
+    size_t width = width_of(&f->desc);
+    float *const some[3] = {s->light, s->light + width, s->light + 2 * width};
+    float *from = s->light + 3 * width, *then = from + width;
+    for (int c = 0; c < 3; c++)
+        for (size_t k = 0; k < count; k++) some[c][k] = rgb[c][s->place[k]];
+    for (size_t k = 0; k < count; k++) then[k] = to[s->place[k]];
+    wf_displayed_light(&f->desc.shown, some, from, NULL, limited(f), count);
+    wf_displayed_change(&f->desc.shown, some, from, then, count);
+    wf_displayed_encode(&f->desc.shown, some, count);
+    for (int c = 0; c < 3; c++)
+        for (size_t k = 0; k < count; k++) rgb[c][s->place[k]] = some[c][k];
 }
 
 void wf_nearest_take(const wf_nearest *f, const wf_worker *worker, int64_t field, int line,
                      float *const rgb[3], float *alpha) {
     const solver *s = &f->solvers[worker->number];
     size_t width = width_of(&f->desc), bytes = width * sizeof(float);
+    const float *to = line_of(f, field, 0, line);
     if (f->desc.channels) {
         for (int c = 0; c < 3; c++) memcpy(rgb[c], line_of(f, field, c, line), bytes);
         memcpy(alpha, line_of(f, field, 3, line), bytes);
         return;
     }
-    const float *to = line_of(f, field, 0, line);
-    float *from = s->light;
     for (int c = 0; c < 3; c++) memcpy(rgb[c], own_line(f, field, line, c), bytes);
-    wf_displayed_light(&f->desc.shown, rgb, from, s->clipped, limited(f), width);
-    wf_displayed_change(&f->desc.shown, rgb, from, to, width);
-    wf_displayed_encode(&f->desc.shown, rgb, width);
-    for (int c = 0; c < 3; c++)
-        keep_unchanged(s, from, to, own_line(f, field, line, c), rgb[c], width);
+    size_t count = find_changes(s, own_line(f, field, line, LUMINANCE), to, width);
+    if (count) change_pixels(f, s, count, to, rgb);
 }
 
 /* ---- Solving ---- */

@@ -27,24 +27,24 @@ typedef struct wf_nearest wf_nearest;
 /* The crew must outlive it. */
 weft_status wf_nearest_new(wf_crew *crew, const wf_nearest_desc *desc, wf_nearest **out,
                            weft_error *err);
-void wf_nearest_free(wf_nearest *flicker); /* NULL is fine */
+void wf_nearest_free(wf_nearest *nearest); /* NULL is fine */
 size_t wf_nearest_bytes(const wf_nearest_desc *desc, int threads);
 
 /* Takes frame line `line` of a field: R'G'B' as it would be written, or, of channels, light;
  * and alpha. rgb is spoiled. Any worker, any line, once each. */
-void wf_nearest_put(wf_nearest *flicker, int64_t field, int line, float *const rgb[3],
-                    const float *alpha);
+void wf_nearest_put(wf_nearest *nearest, const wf_worker *worker, int64_t field, int line,
+                    float *const rgb[3], const float *alpha);
 
 /* Finds the field's nearest picture, when all its lines are there. A column that is not proved
  * to be it is an error. By the one thread that owns the crew. */
-weft_status wf_nearest_solve(wf_nearest *flicker, int64_t field, weft_error *err);
+weft_status wf_nearest_solve(wf_nearest *nearest, int64_t field, weft_error *err);
 
 /* Frame line `line` of it, one of the field's own, as it was put in. Any worker; after
  * wf_nearest_solve, until the field after the next `fields` is put in. */
-void wf_nearest_take(const wf_nearest *flicker, const wf_worker *worker, int64_t field,
+void wf_nearest_take(const wf_nearest *nearest, const wf_worker *worker, int64_t field,
                      int line, float *const rgb[3], float *alpha);
 
 /* Adds what was done to the report. */
-void wf_nearest_tell(const wf_nearest *flicker, wf_report *report);
+void wf_nearest_tell(const wf_nearest *nearest, wf_report *report);
 
 #endif

@@ -271,7 +271,7 @@ static weft_status finish_lines(weft_fields *f, int64_t field, weft_error *err) 
         if (status) return status;
         write_line(f, field, l);
         if (f->flicker)
-            wf_nearest_put(f->flicker, field, l, rgb, alpha_line(f, l));
+            wf_nearest_put(f->flicker, f->crew.workers, field, l, rgb, alpha_line(f, l));
         else
             keep_line(f, l);
     }

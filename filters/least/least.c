@@ -97,7 +97,7 @@ size_t wf_least_scratch_bytes(const wf_least *least) {
     if (!bounded(least)) return tile;
     return 6 * tile + pack_samples(least) * sizeof(double) +
            most_segments(least) * sizeof(wf_least_segment) +
-           (size_t)least->desc.lines * (1 + 5 * sizeof(double));
+           (size_t)least->desc.lines * 6 * sizeof(double);
 }
 
 wf_least_scratch *wf_least_scratch_new(const wf_least *least) {

@@ -185,13 +185,20 @@ static inline lanes form(const view *v, int j) {
     return sum + v->m2[j - 2] * (v->l[j - 2] - v->base[j - 2]);
 }
 
+/* Vectors are passed between functions that are inlined, and made for each number of kinds. */
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
+
+/* How many kinds of bounds count: those of b, or of L too. Functions are made for both. */
+enum { UNBOXED = 2, BOXED = 4 };
+
 /* Slacks as they are at first. Later each is multiplied by what it grows by, since the
  * difference of a limit and b would soon be rounding alone. */
-static void begin_slacks(const view *v) {
+ALWAYS_INLINE void begin_slacks(const view *v, int kinds) {
     for (int j = 0; j < v->rows; j++) {
         lanes b = flicker(v, v->l, j);
         v->s[0][j] = v->limit[j] - b;
         v->s[1][j] = v->limit[j] + b;
+        if (kinds < BOXED) continue;
         v->s[2][j] = v->l[j];
         v->s[3][j] = v->most - v->l[j];
     }
@@ -205,35 +212,37 @@ static inline void invert(lanes a, lanes b, lanes *ia, lanes *ib) {
 }
 
 /* Slacks inverted, weights of both kinds; returns the sum of slack times multiplier. */
-static lanes weigh(const view *v) {
+ALWAYS_INLINE lanes weigh(const view *v, int kinds) {
     lanes sum = all(0);
     for (int j = 0; j < v->rows; j++) {
-        const lanes s[4] = {v->s[0][j], v->s[1][j], v->s[2][j], v->s[3][j]};
-        invert(s[0], s[1], &v->inverse[0][j], &v->inverse[1][j]);
-        invert(s[2], s[3], &v->inverse[2][j], &v->inverse[3][j]);
+        invert(v->s[0][j], v->s[1][j], &v->inverse[0][j], &v->inverse[1][j]);
         v->w[j] = v->bound[j] * (v->z[0][j] * v->inverse[0][j] + v->z[1][j] * v->inverse[1][j]);
-        v->w_box[j] = v->z[2][j] * v->inverse[2][j] + v->z[3][j] * v->inverse[3][j];
-        sum += v->bound[j] * (s[0] * v->z[0][j] + s[1] * v->z[1][j]);
-        sum += v->own[j] * (s[2] * v->z[2][j] + s[3] * v->z[3][j]);
+        sum += v->bound[j] * (v->s[0][j] * v->z[0][j] + v->s[1][j] * v->z[1][j]);
         v->tension[j] = v->bound[j] * (v->z[0][j] - v->z[1][j]);
+        if (kinds < BOXED) continue;
+        invert(v->s[2][j], v->s[3][j], &v->inverse[2][j], &v->inverse[3][j]);
+        v->w_box[j] = v->z[2][j] * v->inverse[2][j] + v->z[3][j] * v->inverse[3][j];
+        sum += v->own[j] * (v->s[2][j] * v->z[2][j] + v->s[3][j] * v->z[3][j]);
     }
     return sum;
 }
 
 /* The gradient; returns the sum of the Lagrangian's, squared. */
-static lanes gradient(const view *v) {
+ALWAYS_INLINE lanes gradient(const view *v, int kinds) {
     lanes sum = all(0);
     for (int j = 0; j < v->rows; j++) {
         v->force[j] = form(v, j);
-        lanes rest = v->force[j] + pull(v, v->tension, j) - v->z[2][j] + v->z[3][j];
+        lanes rest = v->force[j] + pull(v, v->tension, j);
+        if (kinds == BOXED) rest += v->z[3][j] - v->z[2][j];
         sum += v->own[j] * rest * rest;
     }
     return sum;
 }
 
 /* Row j of the step's matrix times what comes before it: F of F D F'. */
-static inline void factor_row(const view *v, int j) {
-    lanes h0 = v->m0[j] + v->w_box[j] + 0.25 * v->w[j];
+ALWAYS_INLINE void factor_row(const view *v, int kinds, int j) {
+    lanes h0 = v->m0[j] + 0.25 * v->w[j];
+    if (kinds == BOXED) h0 += v->w_box[j];
     h0 += v->above[j + 1] * v->above[j + 1] * v->w[j + 1];
     h0 += v->below[j - 1] * v->below[j - 1] * v->w[j - 1];
     lanes h1 = v->m1[j - 1] + 0.5 * (v->below[j - 1] * v->w[j - 1] + v->above[j] * v->w[j]);
@@ -253,19 +262,20 @@ static void backward(const view *v, lanes *x) {
         x[j] = x[j] * v->pivot[j] - v->f1[j + 1] * x[j + 1] - v->f2[j + 2] * x[j + 2];
 }
 
-static void predict(const view *v) {
+ALWAYS_INLINE void predict(const view *v, int kinds) {
     for (int j = 0; j < v->rows; j++) {
-        factor_row(v, j);
+        factor_row(v, kinds, j);
         forward(v, v->step_0, j, -v->force[j]);
     }
     backward(v, v->step_0);
 }
 
 /* How slacks change, by their sizes. */
-static inline void ratios(const view *v, const lanes *step, int j, lanes x[4]) {
+ALWAYS_INLINE void ratios(const view *v, int kinds, const lanes *step, int j, lanes x[4]) {
     lanes b = flicker(v, step, j), l = v->own[j] * step[j];
     x[0] = -b * v->inverse[0][j];
     x[1] = b * v->inverse[1][j];
+    if (kinds < BOXED) return;
     x[2] = l * v->inverse[2][j];
     x[3] = -l * v->inverse[3][j];
 }
@@ -276,12 +286,12 @@ static inline lanes counts(const view *v, int i, int j) {
 
 /* What the sum of slack times multiplier would be after the longest predicted step, over what
  * it is. Multipliers fall by 1 + x of themselves where slacks grow by x. */
-static lanes predicted(const view *v, lanes sum) {
+ALWAYS_INLINE lanes predicted(const view *v, int kinds, lanes sum) {
     lanes most = all(1), curve = all(0);
     for (int j = 0; j < v->rows; j++) {
         lanes x[4];
-        ratios(v, v->step_0, j, x);
-        for (int i = 0; i < 4; i++) {
+        ratios(v, kinds, v->step_0, j, x);
+        for (int i = 0; i < kinds; i++) {
             most = larger(most, larger(-x[i], 1.0 + x[i]));
             curve += counts(v, i, j) * (v->s[i][j] * v->z[i][j]) * (x[i] + x[i] * x[i]);
         }
@@ -291,20 +301,20 @@ static lanes predicted(const view *v, lanes sum) {
 }
 
 /* What the product of slack and multiplier is to become, over the slack. */
-static inline void targets(const view *v, lanes aim, int j, lanes t[4]) {
+ALWAYS_INLINE void targets(const view *v, int kinds, lanes aim, int j, lanes t[4]) {
     lanes x[4];
-    ratios(v, v->step_0, j, x);
-    for (int i = 0; i < 4; i++)
+    ratios(v, kinds, v->step_0, j, x);
+    for (int i = 0; i < kinds; i++)
         t[i] = counts(v, i, j) * (aim * v->inverse[i][j] + v->z[i][j] * (x[i] + x[i] * x[i]));
 }
 
-static void correct(const view *v, lanes aim) {
+ALWAYS_INLINE void correct(const view *v, int kinds, lanes aim) {
     for (int j = 0; j < v->rows; j++) {
         lanes t[4];
-        targets(v, aim, j, t);
+        targets(v, kinds, aim, j, t);
         v->tension[j] = t[0] - t[1];
-        v->force[j] += t[3] - t[2];
-        for (int i = 0; i < 4; i++) v->dz[i][j] = t[i];
+        if (kinds == BOXED) v->force[j] += t[3] - t[2];
+        for (int i = 0; i < kinds; i++) v->dz[i][j] = t[i];
     }
     for (int j = 0; j < v->rows; j++)
         forward(v, v->step, j, -v->force[j] - pull(v, v->tension, j));
@@ -312,14 +322,14 @@ static void correct(const view *v, lanes aim) {
 }
 
 /* The longest step, by which no slack or multiplier falls below 0, inverted. */
-static lanes steepest(const view *v) {
+ALWAYS_INLINE lanes steepest(const view *v, int kinds) {
     lanes most = all(1e-300);
     for (int j = 0; j < v->rows; j++) {
         lanes x[4], iz[4];
-        ratios(v, v->step, j, x);
+        ratios(v, kinds, v->step, j, x);
         invert(v->z[0][j], v->z[1][j], &iz[0], &iz[1]);
-        invert(v->z[2][j], v->z[3][j], &iz[2], &iz[3]);
-        for (int i = 0; i < 4; i++) {
+        if (kinds == BOXED) invert(v->z[2][j], v->z[3][j], &iz[2], &iz[3]);
+        for (int i = 0; i < kinds; i++) {
             lanes dz = counts(v, i, j) * (v->dz[i][j] - v->z[i][j] * (1.0 + x[i]));
             v->dz[i][j] = dz;
             most = larger(most, larger(-x[i], -dz * iz[i]));
@@ -328,21 +338,24 @@ static lanes steepest(const view *v) {
     return most;
 }
 
-static void move(const view *v, lanes length) {
+ALWAYS_INLINE void move(const view *v, int kinds, lanes length) {
     for (int j = 0; j < v->rows; j++) {
         lanes x[4];
-        ratios(v, v->step, j, x);
+        ratios(v, kinds, v->step, j, x);
         v->l[j] += length * v->own[j] * v->step[j];
-        for (int i = 0; i < 4; i++) {
+        for (int i = 0; i < kinds; i++) {
             v->s[i][j] += v->s[i][j] * (length * x[i]);
             v->z[i][j] += length * v->dz[i][j];
         }
     }
 }
 
-static lanes count_bounds(const view *v) {
+ALWAYS_INLINE lanes count_bounds(const view *v, int kinds) {
     lanes count = all(0);
-    for (int j = 0; j < v->rows; j++) count += 2.0 * (v->bound[j] + v->own[j]);
+    for (int j = 0; j < v->rows; j++) {
+        count += 2.0 * v->bound[j];
+        if (kinds == BOXED) count += 2.0 * v->own[j];
+    }
     return larger(count, all(1));
 }
 
@@ -356,49 +369,54 @@ static bool any(mask m) {
 }
 
 /* The last steps may lose to rounding what they gain: what was best is kept. */
-static void keep(const view *v, mask where) {
+ALWAYS_INLINE void keep(const view *v, int kinds, mask where) {
     for (int j = 0; j < v->rows; j++) {
         v->best[4][j] = choose(where, v->l[j], v->best[4][j]);
-        for (int i = 0; i < 4; i++) v->best[i][j] = choose(where, v->z[i][j], v->best[i][j]);
+        for (int i = 0; i < kinds; i++)
+            v->best[i][j] = choose(where, v->z[i][j], v->best[i][j]);
     }
 }
 
-static void take_best(const view *v) {
+ALWAYS_INLINE void take_best(const view *v, int kinds) {
     size_t bytes = (size_t)v->rows * sizeof(lanes);
     memcpy(v->l, v->best[4], bytes);
-    for (int i = 0; i < 4; i++) memcpy(v->z[i], v->best[i], bytes);
+    for (int i = 0; i < kinds; i++) memcpy(v->z[i], v->best[i], bytes);
 }
 
 /* Towards a share of the mean product of slack and multiplier, by Mehrotra's rule. */
-static void step(const view *v, lanes gap, lanes count, mask open) {
-    predict(v);
-    lanes share = larger(predicted(v, gap), all(1e-6));
-    correct(v, share * share * share * gap / count);
-    lanes most = steepest(v), length = choose(most > all(NEARLY), NEARLY / most, all(1));
-    move(v, choose(open & (most == most), length, all(0)));
+ALWAYS_INLINE void step(const view *v, int kinds, lanes gap, lanes count, mask open) {
+    predict(v, kinds);
+    lanes share = larger(predicted(v, kinds, gap), all(1e-6));
+    correct(v, kinds, share * share * share * gap / count);
+    lanes most = steepest(v, kinds), length = choose(most > all(NEARLY), NEARLY / most, all(1));
+    move(v, kinds, choose(open & (most == most), length, all(0)));
 }
 
 /* Mehrotra's predictor and corrector (SIAM J. Optimization 2, 1992), L always within bounds. A
  * lane that is done, or gains nothing more, stands still. */
-static int solve(wf_least_pack *pack) {
+ALWAYS_INLINE int solve_kinds(wf_least_pack *pack, int kinds) {
     const view v = view_of(pack);
-    const lanes tolerance = lanes_at(pack->tolerance), count = count_bounds(&v);
+    const lanes tolerance = lanes_at(pack->tolerance), count = count_bounds(&v, kinds);
     lanes best = all(HUGE_VAL);
     mask open = best == best;
     int steps = 0;
-    begin_slacks(&v);
+    begin_slacks(&v, kinds);
     while (true) {
-        lanes gap = weigh(&v), total = 2.0 * gap + gradient(&v);
+        lanes gap = weigh(&v, kinds), total = 2.0 * gap + gradient(&v, kinds);
         mask better = open & (total < best);
-        if (steps == 0 || any(better & (total < 1e3 * tolerance))) keep(&v, better);
+        if (steps == 0 || any(better & (total < 1e3 * tolerance))) keep(&v, kinds, better);
         best = choose(better, total, best);
         open &= (total > tolerance) & (better | (best > 10.0 * tolerance));
         if (!any(open) || steps == WF_LEAST_STEPS) break;
-        step(&v, gap, count, open);
+        step(&v, kinds, gap, count, open);
         steps++;
     }
-    take_best(&v);
+    take_best(&v, kinds);
     return steps;
+}
+
+static int solve(wf_least_pack *pack) {
+    return pack->boxed ? solve_kinds(pack, BOXED) : solve_kinds(pack, UNBOXED);
 }
 
 const wf_least_ops WF_ISA_TABLE(wf_least_ops) = {smooth, look, prove, solve};

@@ -52,6 +52,7 @@ typedef enum wf_least_array {
 
 typedef struct wf_least_pack {
     int rows, capacity; /* of the longest lane; what there is space for */
+    bool boxed;         /* bounds on L count: without them it would come near them */
     double most[WF_LEAST_LANES];
     /* Of twice the sum of slack times multiplier and the gradient squared: a lane below it is
      * done. */

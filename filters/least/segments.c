@@ -36,55 +36,86 @@ static double b_at(const wf_least *least, const double *x, int j) {
     return 0.5 * x[j * WIDTH] - 0.25 * (x[above * WIDTH] + x[below * WIDTH]);
 }
 
+/* Of numbers that are not NaN. */
+static inline double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
+static inline double smaller(double a, double b) {
+    return a < b ? a : b;
+}
+
 /* ---- Segments ---- */
 
-/* Marks the lines of a column that break a bound; returns by how much at most. */
-static double find_breaks(const wf_least *least, wf_least_scratch *s, int column) {
+/* Marks the lines of a column that break a bound, by how much. */
+static void find_breaks(const wf_least *least, wf_least_scratch *s, int column) {
     const double *x = s->l + column, held = HELD * s->scale[column];
-    double worst = 0;
     for (int j = 0; j < least->desc.lines; j++) {
         double l = x[j * WIDTH];
         double over = fabs(b_at(least, x, j)) - limit_at(s, j, column);
-        over = fmax(over, fmax(-l, l - least->desc.most));
-        s->breaks[j] = s->breaks[j] || over > held;
-        worst = fmax(worst, over);
+        over = larger(over, larger(-l, l - least->desc.most));
+        if (over > held) s->breaks[j] = larger(s->breaks[j], over);
     }
-    return worst;
 }
 
+/* Adds lines to the segments of a column; those that are no farther apart than a tail are one.
+ */
 static void add_segment(const wf_least *least, wf_least_scratch *s, int column, int first,
-                        int end, int margin) {
-    int lines = least->desc.lines;
-    wf_least_segment *last = s->segment_count ? &s->segments[s->segment_count - 1] : NULL;
-    first = first - margin < 3 ? 0 : first - margin;
-    end = end + margin > lines - 3 ? lines : end + margin;
-    if (last && last->column == column && first <= last->end + least->tail + 2)
-        last->end = end;
-    else
-        s->segments[s->segment_count++] = (wf_least_segment){column, first, end};
+                        int end) {
+    while (s->segment_count) {
+        const wf_least_segment *last = &s->segments[s->segment_count - 1];
+        if (last->column != column || first > last->end + least->tail + 2) break;
+        first = last->first < first ? last->first : first;
+        end = last->end > end ? last->end : end;
+        s->segment_count--;
+        s->pieces[column]--;
+    }
+    s->segments[s->segment_count++] = (wf_least_segment){column, first, end, true};
+    s->pieces[column]++;
 }
 
 /* The least limit of a column. */
 static double least_limit(const wf_least *least, const wf_least_scratch *s, int column) {
     double limit = limit_at(s, 0, column);
     for (int j = 1; s->limit_step && j < least->desc.lines; j++)
-        limit = fmin(limit, limit_at(s, j, column));
+        limit = smaller(limit, limit_at(s, j, column));
     return limit;
 }
 
-/* The lines about those that break a bound: a step of height h is spread over the square root
- * of h / limit lines. */
-static void find_segments(const wf_least *least, wf_least_scratch *s, int column, double worst,
-                          int round) {
-    int margin = (5 + (int)(2 * sqrt(worst / least_limit(least, s, column)))) << round;
-    if (round > ROUNDS - 4 || margin > least->desc.lines) margin = least->desc.lines;
-    for (int j = 0; j < least->desc.lines; j++)
-        if (s->breaks[j]) add_segment(least, s, column, j, j + 1, margin);
+/* Lines about those that break a bound: a step of height h is spread over the square root of
+ * h / limit lines. */
+static void find_segments(const wf_least *least, wf_least_scratch *s, int column, int round) {
+    int lines = least->desc.lines;
+    s->pieces[column] = 0;
+    for (int j = 0; j < lines; j++) {
+        if (!(s->breaks[j] > 0)) continue;
+        int margin = (3 + (int)(1.2 * sqrt(s->breaks[j] / limit_at(s, j, column)))) << round;
+        if (round > ROUNDS - 4 || margin > lines) margin = lines;
+        int first = j - margin < 3 ? 0 : j - margin, end = j + margin + 1;
+        add_segment(least, s, column, first, end > lines - 3 ? lines : end);
+    }
+}
+
+/* What is bounded swings so far beyond what it is made of, at most, but where it does not
+ * matter. */
+#define SWING 0.1
+
+static bool meets_box(const wf_least *least, const wf_least_scratch *s,
+                      const wf_least_segment *g) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int j = g->first; j < g->end; j++) {
+        double l = s->base[j * WIDTH + g->column];
+        low = l < low ? l : low;
+        high = l > high ? l : high;
+    }
+    double swing = SWING * (high - low);
+    return low - swing <= 0 || high + swing >= least->desc.most;
 }
 
 static int by_length(const void *left, const void *right) {
     const wf_least_segment *a = left, *b = right;
     int one = a->end - a->first, other = b->end - b->first;
+    if (a->boxed != b->boxed) return a->boxed ? -1 : 1;
     if (one != other) return one < other ? 1 : -1;
     if (a->column != b->column) return a->column < b->column ? -1 : 1;
     return a->first < b->first ? -1 : a->first > b->first;
@@ -157,13 +188,13 @@ static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least
     int rows = g->end - g->first;
     double mean = 0, most = p->most[lane], part = 1;
     for (int j = g->first; j < g->end; j++) mean += base[j * WIDTH] / rows;
-    mean = fmin(fmax(mean, 0.05 * fmin(most, 1)), 0.95 * most);
+    mean = smaller(larger(mean, 0.05 * smaller(most, 1)), 0.95 * most);
     for (int j = g->first; j < g->end; j++) {
         double off = base[j * WIDTH] - mean;
         double b = fabs(b_at(least, base, j));
-        if (b > 0) part = fmin(part, 0.7 * limit_at(s, j, g->column) / b);
-        if (off < 0) part = fmin(part, 0.9 * mean / -off);
-        if (off > 0) part = fmin(part, 0.9 * (most - mean) / off);
+        if (b > 0) part = smaller(part, 0.7 * limit_at(s, j, g->column) / b);
+        if (p->boxed && off < 0) part = smaller(part, 0.9 * mean / -off);
+        if (p->boxed && off > 0) part = smaller(part, 0.9 * (most - mean) / off);
     }
     double mu = 0;
     for (int j = g->first; j < g->end; j++) {
@@ -177,8 +208,8 @@ static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least
         *cell(p, WF_LEAST_L, row, lane) = l;
         *cell(p, WF_LEAST_Z, row, lane) = *cell(p, WF_LEAST_Z + 1, row, lane) =
             mu / limit_at(s, g->first + row, g->column);
-        *cell(p, WF_LEAST_Z + 2, row, lane) = mu / l;
-        *cell(p, WF_LEAST_Z + 3, row, lane) = mu / (most - l);
+        *cell(p, WF_LEAST_Z + 2, row, lane) = p->boxed ? mu / l : 0;
+        *cell(p, WF_LEAST_Z + 3, row, lane) = p->boxed ? mu / (most - l) : 0;
     }
 }
 
@@ -222,11 +253,12 @@ static void solve_together(const wf_least *least, wf_least_scratch *s,
                            const wf_least_segment *g, int count) {
     wf_least_pack *p = &s->pack;
     p->rows = g->end - g->first; /* they come by length */
+    p->boxed = g->boxed;
 
     for (int lane = 0; lane < LANES; lane++) {
         int own = lane < count ? lane : 0, rows = g[own].end - g[own].first;
         double scale = s->scale[g[own].column];
-        p->tolerance[lane] = SOLVED * scale * scale * rows / least->desc.lines;
+        p->tolerance[lane] = SOLVED * scale * scale / s->pieces[g[own].column];
         p->most[lane] = fmin(least->desc.most, FAR * scale);
         put_form(least, p, &g[own], lane);
         put_bounds(least, s, &g[own], lane);
@@ -238,19 +270,28 @@ static void solve_together(const wf_least *least, wf_least_scratch *s,
     for (int lane = 0; lane < count; lane++) take_lane(least, s, &g[lane], lane);
 }
 
-static void solve_segments(const wf_least *least, wf_least_scratch *s) {
+/* first: the first time, when bounds on L are left out where they are not thought to be met. */
+static void solve_segments(const wf_least *least, wf_least_scratch *s, bool first) {
+    for (int n = 0; n < s->segment_count; n++)
+        s->segments[n].boxed = !first || meets_box(least, s, &s->segments[n]);
     qsort(s->segments, (size_t)s->segment_count, sizeof *s->segments, by_length);
-    for (int n = 0; n < s->segment_count; n += LANES)
-        solve_together(least, s, s->segments + n,
-                       s->segment_count - n < LANES ? s->segment_count - n : LANES);
+    for (int n = 0, count; n < s->segment_count; n += count) {
+        const wf_least_segment *g = s->segments + n;
+        for (count = 1; count < LANES && n + count < s->segment_count;) {
+            if (g[count].boxed != g->boxed) break;
+            count++;
+        }
+        solve_together(least, s, g, count);
+    }
 }
 
 /* ---- Tiles ---- */
 
-static double scale_of(const wf_least *least, const wf_least_scratch *s, int column) {
-    double scale = 1;
-    for (int j = 0; j < least->desc.lines; j++) scale = fmax(scale, s->s[j * WIDTH + column]);
-    return scale;
+/* max(1, max S) of every column. */
+static void find_scales(const wf_least *least, wf_least_scratch *s) {
+    for (int i = 0; i < WIDTH; i++) s->scale[i] = 1;
+    for (int j = 0; j < least->desc.lines; j++)
+        for (int i = 0; i < WIDTH; i++) s->scale[i] = larger(s->scale[i], s->s[j * WIDTH + i]);
 }
 
 static void reset_column(const wf_least *least, wf_least_scratch *s, int column) {
@@ -268,8 +309,9 @@ static void solve_again(const wf_least *least, wf_least_scratch *s, int column, 
     find_breaks(least, s, column);
     reset_column(least, s, column);
     s->segment_count = 0;
-    find_segments(least, s, column, find_breaks(least, s, column), round);
-    solve_segments(least, s);
+    find_breaks(least, s, column);
+    find_segments(least, s, column, round);
+    solve_segments(least, s, false);
 }
 
 static bool is_proved(const wf_least *least, const wf_least_scratch *s, int column,
@@ -300,10 +342,12 @@ static void prove_column(const wf_least *least, wf_least_scratch *s, int column,
 static void find_all_segments(const wf_least *least, wf_least_scratch *s, int columns,
                               const double *broken) {
     s->segment_count = 0;
+    find_scales(least, s);
     for (int i = 0; i < columns; i++) {
-        s->scale[i] = broken[i] > HELD ? scale_of(least, s, i) : 1;
+        if (broken[i] <= HELD) continue;
         memset(s->breaks, 0, (size_t)least->desc.lines * sizeof *s->breaks);
-        if (broken[i] > HELD) find_segments(least, s, i, find_breaks(least, s, i), 0);
+        find_breaks(least, s, i);
+        find_segments(least, s, i, 0);
     }
 }
 
@@ -321,7 +365,7 @@ void wf_least_hold(const wf_least *least, wf_least_scratch *s, int columns,
     memset(s->tension, 0, samples * sizeof *s->tension);
     memset(s->press, 0, samples * sizeof *s->press);
     find_all_segments(least, s, columns, broken);
-    solve_segments(least, s);
+    solve_segments(least, s, true);
     wf_least_judge(least, s, excess, gap);
     for (int i = 0; i < columns; i++)
         if (broken[i] > HELD) prove_column(least, s, i, excess, gap, counts);

@@ -15,6 +15,7 @@ struct wf_least {
 /* Lines first <= j < end of a column, which bounds change. */
 typedef struct wf_least_segment {
     int column, first, end;
+    bool boxed; /* bounds on L may be met */
 } wf_least_segment;
 
 /* Tiles are [lines][WF_LEAST_COLUMNS]. */
@@ -25,8 +26,9 @@ struct wf_least_scratch {
     double *limit;                  /* of |b|: line j has limit[j * limit_step + column] */
     ptrdiff_t limit_step;           /* 0: it is one line, which all have */
     double scale[WF_LEAST_COLUMNS]; /* max(1, max S) */
-    bool *breaks;                   /* [lines] of a column: its bounds are broken there */
-    double *settling;               /* [5][lines] */
+    double *breaks; /* [lines] of a column: by how much its bounds are broken there */
+    int pieces[WF_LEAST_COLUMNS]; /* segments of each column */
+    double *settling;             /* [5][lines] */
     wf_least_segment *segments;
     int segment_count;
     wf_least_pack pack;

@@ -495,7 +495,7 @@ static void prove(level_run *r) {
 /* Lanes of columns in a bound of 0.1; test_least.c holds what comes out to another solver. */
 static void solve(level_run *r) {
     int height = 5 + (int)(r->count % 40);
-    wf_least_pack p = {.rows = height, .capacity = height};
+    wf_least_pack p = {.rows = height, .capacity = height, .boxed = r->count % 2};
     size_t all = (size_t)(height + 2 * WF_LEAST_GUARD) * LANES * WF_LEAST_ARRAYS;
     p.arrays = level_buffer(r, all * sizeof *p.arrays);
     for (size_t n = 0; n < all; n++) p.arrays[n] = 0;
