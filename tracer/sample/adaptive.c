@@ -40,7 +40,7 @@
 #define SHORT 0.5
 
 /* What is said of errors' squares, beside what was found: rather too much. */
-#define SAID 1.15
+#define SAID 1.2
 
 /* The cosine between edges of neighbors that are one, and how far apart they may be. */
 #define ALIKE  0.9

@@ -178,7 +178,7 @@ static double largest_pair(const pool *p, int at) {
 /* Of the tile's pixels this share may be off by more than the error asked for: the fewer of
  * them are uncertain at all, the more may these be. Where pixels see parts of many cells, what
  * these are off adds up to something more even. */
-#define OUTSIDE      0.007
+#define OUTSIDE      0.006
 #define OUTSIDE_WIDE 0.011
 
 /* A cell counts as uncertain from this part of the most that it may be off; squared. */
@@ -257,11 +257,10 @@ static double need_of(const pool *p, int at) {
 
 /* So many samples leave the least error over all if the square of each cell's goes with the
  * root of what one sample of it is off, and the fewest pixels far off if all are alike. Between
- * them, with this power; from so little on, and up to what no cell may be off by more. */
+ * them, with this power, from so little on and up to so much. */
 #define SPREAD        0.3
 #define LEAST_ALLOWED 0.25
-#define MOST_ALLOWED  2.0
-#define FARTHEST      0.65
+#define MOST_ALLOWED  1.2
 
 /* From this part of the error that cells may have they count here; squared. */
 #define COUNTS 1e-4
@@ -271,8 +270,7 @@ static double allowed_of(const wf_adaptive *a, const wf_adaptive_cell *c) {
 }
 
 static void find_allowed(wf_adaptive *a) {
-    double sum = 0, count = 0, farthest = FARTHEST / a->caution;
-    double most = fmin(fmax(farthest * farthest, 1), MOST_ALLOWED);
+    double sum = 0, count = 0;
     for (int at = 0; at < GRID_CELLS; at++) {
         wf_adaptive_cell *c = &a->cell[at];
         c->allowed = 1;
@@ -283,7 +281,7 @@ static void find_allowed(wf_adaptive *a) {
     for (int at = 0; at < GRID_CELLS && count > 0; at++) {
         wf_adaptive_cell *c = &a->cell[at];
         if (!c->own || !(c->need > 0)) continue;
-        c->allowed = fmin(fmax(allowed_of(a, c) * count / sum, LEAST_ALLOWED), most);
+        c->allowed = fmin(fmax(allowed_of(a, c) * count / sum, LEAST_ALLOWED), MOST_ALLOWED);
     }
 }
 
