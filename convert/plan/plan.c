@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "convert/base/values.h"
+#include "convert/plan/refine.h"
 #include "convert/read/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/time/picture_rate.h"
@@ -166,7 +167,7 @@ static double together(const wf_plan *plan, int64_t field) {
     wf_window window = wf_resampler_window(plan->resampler, field);
     double squares = 0;
     for (int64_t k = window.first; k < window.first + window.count; k++) {
-        double share = wf_resampler_share(plan->resampler, field, k);
+        double share = wf_resampler_share(plan->resampler, field, 0, k);
         squares += share * share;
     }
     return squares > 0 ? 1 / squares : 1;
@@ -214,6 +215,7 @@ weft_status wf_plan_make(const weft_job *job, wf_plan *plan, weft_error *err) {
     if (!status) status = list_subframes(plan, err);
     if (status) return status;
     settle_samples(plan);
+    if (job->refine) return wf_plan_refine(plan, err);
     warn_of_width(plan);
     return WEFT_OK;
 }

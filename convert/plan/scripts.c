@@ -132,8 +132,7 @@ void wf_plan_for_povray(const wf_plan *plan, FILE *to) {
             "; clock is the time in seconds. The camera's right vector is x*%d/%d*%" PRId64
             "/%" PRId64 ".\n",
             plan->width_px, plan->lines, plan->pixel_aspect.num, plan->pixel_aspect.den);
-    fprintf(to,
-            "Width=%d\nHeight=%d\nOutput_File_Type=E\nAntialias=Off\nDisplay=Off\n",
+    fprintf(to, "Width=%d\nHeight=%d\nOutput_File_Type=E\nAntialias=Off\nDisplay=Off\n",
             plan->width_px, plan->lines);
     for (size_t i = 0; i < plan->count; i++) {
         const wf_plan_subframe *s = &plan->subframe[i];

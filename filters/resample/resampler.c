@@ -141,12 +141,12 @@ wf_cells wf_resampler_reach(const wf_resampler *rs) {
     return (wf_cells){rs->columns.first, rs->rows.first, rs->columns.end, rs->rows.end};
 }
 
-double wf_resampler_share(const wf_resampler *rs, int64_t field, int64_t k) {
+double wf_resampler_share(const wf_resampler *rs, int64_t field, int line, int64_t k) {
     double q0, q1, width = wf_ratio_value(rs->desc.timing.width);
-    wf_window window = wf_timing_window(&rs->timing, field, 0);
+    wf_window window = wf_timing_window(&rs->timing, field, line);
     if (k < window.first || k >= window.first + window.count) return 0;
     if (window.alone) return 1;
-    wf_timing_cell(&rs->timing, field, 0, k, &q0, &q1);
+    wf_timing_cell(&rs->timing, field, line, k, &q0, &q1);
     return (q1 - q0) / width;
 }
 

@@ -88,8 +88,8 @@ typedef struct wf_band_input {
 /* All cells that some aperture of some field meets, of the display window or not. */
 wf_cells wf_resampler_reach(const wf_resampler *resampler);
 
-/* The part of field n's window that subframe k is shown in, of 1, on its first line. */
-double wf_resampler_share(const wf_resampler *resampler, int64_t field, int64_t k);
+/* The part of field n's window that subframe k is shown in, of 1, on a frame line. */
+double wf_resampler_share(const wf_resampler *resampler, int64_t field, int line, int64_t k);
 
 /* Whether data reaches past the display window to where some aperture looks. */
 bool wf_resampler_overscan(const wf_resampler *resampler, const wf_cells *data);

@@ -61,22 +61,33 @@ const wf_cmd wf_cmd_plan = {
     .name = "plan",
     .operands = "--frames A-B --subframe-rate R",
     .summary = "which subframes to render",
-    .text = "Tells what a renderer has to make for frames A to B of the output: the subframes "
-            "that\n"
-            "some field sees, their times, their size and the shape of their pixels. With a "
-            "width of\n"
-            "half a field that is half of all, and the video is the same to the bit.\n"
-            "\n"
-            "  weft plan --raster 1080i50 --frames 0-99 --subframe-rate 400\n"
-            "  weft plan --raster 1080i50 --frames 0-99 --subframe-rate 400 --format blender "
-            ">plan.py\n"
-            "  blender -b shot.blend -P plan.py -- subframes\n"
-            "  weft convert subframes --frames 0-1599 --subframe-rate 400 --raster 1080i50 -o "
-            "shot.mxf\n"
-            "\n"
-            "Subframes are numbered from 0: number k is the moment k/R of the scene. --frames "
-            "0-1599 of\n"
-            "convert says so, since files that are not needed are not there.\n",
+    .text =
+        "Tells what a renderer has to make for frames A to B of the output: the subframes "
+        "that\n"
+        "some field sees, their times, their size and the shape of their pixels. With a "
+        "width of\n"
+        "half a field that is half of all, and the video is the same to the bit.\n"
+        "\n"
+        "  weft plan --raster 1080i50 --frames 0-99 --subframe-rate 400\n"
+        "  weft plan --raster 1080i50 --frames 0-99 --subframe-rate 400 --format blender "
+        ">plan.py\n"
+        "  blender -b shot.blend -P plan.py -- subframes\n"
+        "  weft convert subframes --frames 0-1599 --subframe-rate 400 --raster 1080i50 -o "
+        "shot.mxf\n"
+        "\n"
+        "With --refine only what moves is rendered more than once a field: an empty folder "
+        "wants\n"
+        "a first pass, and of what is there a plan tells the times and rectangles that are "
+        "still\n"
+        "wanted, until none are. A file of a rectangle says so by weft:region\n"
+        "(examples/stamp_exr.py).\n"
+        "\n"
+        "  weft plan --raster 1080i50 --frames 0-99 --subframe-rate 400 --refine subframes \\\n"
+        "      --error 0.005 --format json\n"
+        "\n"
+        "Subframes are numbered from 0: number k is the moment k/R of the scene. --frames "
+        "0-1599 of\n"
+        "convert says so, since files that are not needed are not there.\n",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .taken_by = WF_TAKEN_BY_PLAN,

@@ -1,0 +1,242 @@
+/* Refining: what is rendered so far, which of the subframes of each field are needed first, and
+ * which rectangles of others the estimates want. */
+#include "convert/plan/refine.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/media/exr_region.h"
+#include "convert/read/sequence.h"
+#include "convert/read/source.h"
+
+static wf_box whole_of(const wf_plan *plan) {
+    return (wf_box){0, 0, plan->width_px, plan->lines};
+}
+
+static int lower(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int higher(int a, int b) {
+    return a > b ? a : b;
+}
+
+wf_box wf_box_around(wf_box a, wf_box b) {
+    if (a.x0 >= a.x1) return b;
+    if (b.x0 >= b.x1) return a;
+    return (wf_box){lower(a.x0, b.x0), lower(a.y0, b.y0), higher(a.x1, b.x1),
+                    higher(a.y1, b.y1)};
+}
+
+static bool contains(wf_box a, wf_box b) {
+    return a.x0 <= b.x0 && a.y0 <= b.y0 && a.x1 >= b.x1 && a.y1 >= b.y1;
+}
+
+void wf_refine_want(const wf_refining *r, wf_refine_slot *slot, wf_box box) {
+    wf_box all = whole_of(r->plan);
+    box = (wf_box){higher(box.x0, all.x0), higher(box.y0, all.y0), lower(box.x1, all.x1),
+                   lower(box.y1, all.y1)};
+    if (slot->whole) return;
+    if (slot->path) {
+        if (contains(slot->region, box)) return;
+        box = wf_box_around(slot->region, box);
+    }
+    slot->wanted = slot->is_wanted ? wf_box_around(slot->wanted, box) : box;
+    slot->is_wanted = true;
+}
+
+/* ---- What is there ---- */
+
+/* Whether a folder holds no file; false with the reason where it is none. */
+static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
+    DIR *directory = opendir(folder);
+    *empty = true;
+    if (!directory)
+        return wf_fail(
+            err, WEFT_FAILED,
+            "--refine %.500s: %s; give the folder that the subframes are rendered into, "
+            "which may be empty",
+            folder, strerror(errno));
+    for (const struct dirent *entry; (entry = readdir(directory));)
+        if (entry->d_name[0] != '.') *empty = false;
+    closedir(directory);
+    return WEFT_OK;
+}
+
+static weft_status check_size(const wf_plan *plan, const char *path, weft_error *err) {
+    const wf_source_options options = {.max_memory_bytes = plan->job.max_memory_bytes};
+    wf_subframe *picture;
+    weft_status status = wf_subframe_open(path, -1, &options, &picture, err);
+    if (status) return status;
+    wf_box display = wf_subframe_info(picture)->display;
+    int width = display.x1 - display.x0, lines = display.y1 - display.y0;
+    wf_subframe_close(picture);
+    if (width == plan->width_px && lines == plan->lines) return WEFT_OK;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: it is %dx%d, and subframes of this plan are %dx%d; give --size %dx%d, or "
+        "render it again",
+        path, width, lines, plan->width_px, plan->lines, width, lines);
+}
+
+static weft_status take_file(const wf_plan *plan, wf_refine_slot *slot, const char *path,
+                             weft_error *err) {
+    bool has;
+    weft_status status = check_size(plan, path, err);
+    if (!status) status = wf_exr_region(path, &slot->region, &has, err);
+    if (status) return status;
+    slot->path = strdup(path);
+    if (!slot->path) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    slot->whole = !has || contains(slot->region, whole_of(plan));
+    if (slot->whole) slot->region = whole_of(plan);
+    return WEFT_OK;
+}
+
+static weft_status refuse_foreign(const wf_plan *plan, const wf_sequence *found,
+                                  weft_error *err) {
+    (void)found;
+    return wf_fail(
+        err, WEFT_FAILED,
+        "--refine %.500s: none of its files has a number of this plan, which are %" PRId64
+        " to %" PRId64 "; give the folder of these subframes, and the options that they "
+        "were planned with",
+        plan->job.refine, plan->subframe[0].number, plan->subframe[plan->count - 1].number);
+}
+
+/* Numbers of the folder that the plan has not are nobody's concern here. */
+static weft_status take_files(wf_refining *r, const wf_sequence *found, weft_error *err) {
+    size_t slot = 0, taken = 0;
+    weft_status status = WEFT_OK;
+    for (size_t k = 0; !status && k < found->count; k++) {
+        const wf_subframe_ref *ref = &found->refs[k];
+        while (slot < r->slots && r->slot[slot].number < ref->number.num) slot++;
+        if (slot == r->slots) break;
+        if (!ref->path || ref->number.den != 1 || r->slot[slot].number != ref->number.num)
+            continue;
+        status = take_file(r->plan, &r->slot[slot], ref->path, err);
+        taken++;
+    }
+    return status || taken ? status : refuse_foreign(r->plan, found, err);
+}
+
+static weft_status find_files(wf_refining *r, weft_error *err) {
+    const wf_plan *plan = r->plan;
+    char *inputs[] = {plan->job.refine}, frames[64];
+    bool empty;
+    wf_sequence found = {0};
+    weft_status status = look_into(plan->job.refine, &empty, err);
+    if (status || empty) return status;
+    snprintf(frames, sizeof frames, "%" PRId64 "-%" PRId64, plan->subframe[0].number,
+             plan->subframe[plan->count - 1].number);
+    status = wf_sequence_expand(inputs, 1, frames, &found, err);
+    if (!status) status = take_files(r, &found, err);
+    wf_sequence_free(&found);
+    return status;
+}
+
+/* ---- Fields ---- */
+
+static size_t slot_of(const wf_refining *r, int64_t number) {
+    size_t low = 0, high = r->slots;
+    while (low < high) {
+        size_t at = low + (high - low) / 2;
+        if (r->slot[at].number < number)
+            low = at + 1;
+        else
+            high = at;
+    }
+    return low;
+}
+
+/* The first of a field's window is needed whole, and a later one that is not before its last,
+ * before anything can be said of those between. What moves alike in every field, as spokes do,
+ * is seen by none of the first ones: two of a field see it. Every few fields have two, and what
+ * moves in these is taken to move in those between. */
+enum { FIELDS_FOR_TWO = 4 };
+
+static bool has_two(const wf_plan *plan, int64_t field) {
+    return (field - plan->first_field) % FIELDS_FOR_TWO == 0 || field == plan->end_field - 1;
+}
+
+/* The slots of a field's window. */
+static void window_of(const wf_refining *r, int64_t field, size_t *first, size_t *last) {
+    wf_window window = wf_resampler_window(r->plan->resampler, field);
+    *first = slot_of(r, window.first);
+    *last = slot_of(r, window.first + window.count - 1);
+}
+
+static weft_status refine_field(wf_refining *r, int64_t field, weft_error *err) {
+    size_t first, last, after;
+    window_of(r, field, &first, &last);
+    bool two = has_two(r->plan, field);
+    wf_refine_want(r, &r->slot[first], whole_of(r->plan));
+    if (two) wf_refine_want(r, &r->slot[last], whole_of(r->plan));
+    for (after = last; after < r->slots && !r->slot[after].whole;) after++;
+    bool ready = r->slot[first].whole && after < r->slots && (!two || r->slot[last].whole);
+    return ready ? wf_refine_estimate(r, field, first, after,
+                                      &r->moved[field - r->plan->first_field], err)
+                 : WEFT_OK;
+}
+
+/* Fields between two of two: what moves in these is looked for in them. */
+static void look_between(wf_refining *r, int64_t field) {
+    const wf_plan *plan = r->plan;
+    int64_t at = field - plan->first_field, before = at / FIELDS_FOR_TWO * FIELDS_FOR_TWO;
+    int64_t after = before + FIELDS_FOR_TWO, end = plan->end_field - plan->first_field - 1;
+    size_t first, last;
+    wf_box box = wf_box_around(r->moved[before], r->moved[after < end ? after : end]);
+    window_of(r, field, &first, &last);
+    if (box.x0 < box.x1 && last > first) wf_refine_want(r, &r->slot[last], box);
+}
+
+static weft_status refine_fields(wf_refining *r, weft_error *err) {
+    const wf_plan *plan = r->plan;
+    weft_status status = WEFT_OK;
+    for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
+        status = plan->job.cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted")
+                                     : refine_field(r, n, err);
+    for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
+        if (!has_two(plan, n)) look_between(r, n);
+    return status;
+}
+
+/* ---- The plan of it ---- */
+
+static weft_status begin(const wf_plan *plan, wf_refining *r, weft_error *err) {
+    if (!wf_ratio_given(plan->job.error))
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--refine needs to know how far off pixels may be; give --error too, such "
+            "as --error 0.005");
+    size_t fields = (size_t)(plan->end_field - plan->first_field);
+    *r = (wf_refining){plan, wf_ratio_value(plan->job.error),
+                       calloc(plan->count + 1, sizeof *r->slot), plan->count,
+                       calloc(fields, sizeof *r->moved)};
+    if (!r->slot || !r->moved) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the plan");
+    for (size_t i = 0; i < r->slots; i++) r->slot[i].number = plan->subframe[i].number;
+    return WEFT_OK;
+}
+
+static void end(const wf_refining *r, wf_plan *plan) {
+    plan->count = 0;
+    for (size_t i = 0; i < r->slots; i++)
+        if (r->slot[i].is_wanted)
+            plan->subframe[plan->count++] =
+                (wf_plan_subframe){r->slot[i].number, r->slot[i].wanted};
+}
+
+weft_status wf_plan_refine(wf_plan *plan, weft_error *err) {
+    wf_refining r = {0};
+    weft_status status = begin(plan, &r, err);
+    if (!status) status = find_files(&r, err);
+    if (!status) status = refine_fields(&r, err);
+    if (!status) end(&r, plan);
+    for (size_t i = 0; i < r.slots && r.slot; i++) free(r.slot[i].path);
+    free(r.slot);
+    free(r.moved);
+    return status;
+}

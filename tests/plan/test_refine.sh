@@ -1,0 +1,55 @@
+#!/bin/bash
+# weft plan --refine: scenes refined until nothing is wanted, held against all subframes and against four
+# times as many; what it costs; and folders that will not do.
+source "$(dirname "$0")/../program/script.sh"
+not_sanitized never
+needs oiiotool
+
+refined()
+{
+    local scene=$1
+    shift
+    rm -rf refining && mkdir refining
+    (cd refining && python3 "$WEFT_SOURCE/tests/plan/refine.py" "$WEFT" "$WEFT_SOURCE/examples/scenes/$scene" \
+        "$WEFT_SOURCE/examples" 96x64@30i,tff "$@" >../out) && cat out
+}
+
+check "a shot that is mostly still" refined one_mover.lua 1/2 0.005 5
+check "99 % of its pixels are within the error" value "d['within'] >= 0.99"
+check "it is as near to the truth as all subframes" value "d['some'] <= 1.02 * d['all'] + 1e-5"
+check "at a fifth of the cost" value "d['share'] <= 0.2 and d['rounds'] >= 2"
+check "the wheel" refined wheel.lua 1/2 0.005 2
+check "99 % of its pixels are" value "d['within'] >= 0.99"
+check "as near to the truth" value "d['some'] <= 1.02 * d['all'] + 1e-5"
+check "at six tenths of the cost" value "d['share'] <= 0.6"
+if is_long; then
+    check "a whole field's width, and coarse" refined wheel.lua 1 0.02 1
+    check "99 % of its pixels are too" value "d['within'] >= 0.99"
+fi
+
+
+# ---- Folders that will not do ----
+
+plan() { weft plan --raster 96x64@30i,tff --frames 0-1 --subframe-rate 480 --refine "$@"; }
+mkdir empty foreign other half
+check "an empty one wants the first pass" exits 0 plan empty --error 0.01 --format json
+check "a whole one a field, and two in every fourth" value \
+    "[s['number'] for s in d['subframes']] == [0, 3, 8, 16, 24, 27] and d['subframes'][0]['region'] == [0, 0, 96, 64]"
+check "without an error" refuses "--error 0.005" plan --raster 96x64@30i,tff --frames 0-1 --subframe-rate 480 --refine empty
+check "none there" fails "may be empty" plan nowhere --error 0.01
+weft trace "$WEFT_SOURCE/examples/scenes/one_mover.lua" --raster 96x64@30i,tff --oversample 1x1x8 --frames 0-1 \
+    -o "other/shot.####.exr" -q
+check "of another size" fails "is 96x64, and subframes of this plan are 192x64; give --size 96x64" \
+    plan other --error 0.01 --size 192x64
+for k in 0 8; do cp other/shot.000$k.exr foreign/shot.9$k.exr; done
+check "of other numbers" fails "none of" plan foreign --error 0.01
+cp other/shot.0000.exr other/shot.0003.exr half
+head -c 3000 other/shot.0008.exr >half/shot.0008.exr
+check "a file that is half written" fails "shot.0008.exr.*being written" plan half --error 0.01
+rm half/shot.0008.exr
+check "the first pass, half done" exits 0 plan half --error 0.01 --format json
+check "wants the other half" value "[s['number'] for s in d['subframes'] if s['region'] == [0, 0, 96, 64]] == [8, 16, 24, 27]"
+check "all of it" exits 0 plan other --error 0.01 --format json
+check "wants nothing" value "d['subframes'] == []"
+
+finish
