@@ -73,6 +73,11 @@ ffv1.mkv ffv1'
 fi
 check "composite" exits 0 weft composite sd.y4m -o seen.y4m --encoder filtered --decoder comb3
 check "difference" exits 0 weft measure seen.y4m --against sd.y4m --heatmap heat.png
+check "what is seen" exits 0 weft measure sd.0000.exr --raster 525i --view-distance 4 --peak 80 --heatmap heat.png --heat visible
+if [ -n "$(find "$WEFT_BUILD" -maxdepth 4 -name weft-deinterlace.so -print -quit)" ]; then
+    check "deinterlaced" exits 0 weft measure 'sd.####.exr' --raster 525i --display bwdif --json
+fi
+check "a limit of what is seen" exits 3 "${convert[@]}" --raster $raster --flicker-limit visible:1 --on-missing hold --overwrite -o o.y4m
 check "a limit" fails "flicker.rms" weft measure sd.y4m --limit flicker.rms=0
 check "verify" exits 0 weft verify sd.y4m --raster 525i
 check "verify the other order" exits 1 weft verify sd.y4m --raster 525i-rp202

@@ -95,6 +95,8 @@ render slow_edges --raster 240x160@60p --frames 0-9 --aperture line -o short.y4m
 check "a short one" fails "more fields" weft measure tff.y4m --display bwdif --against short.y4m
 render slow_edges --raster 240x160@60p --frames 0-13 --aperture line -o long.y4m
 check "a long one" fails "fewer fields" weft measure tff.y4m --display bwdif --against long.y4m
+quiet_ffmpeg -f lavfi -i testsrc=s=16x2:r=25:d=0.2 -pix_fmt yuv444p -strict -1 low.y4m
+check "two lines" fails "16x2 as yuv444p" weft measure low.y4m --raster 16x2@25i --display bwdif
 check "one frame" exits 0 weft measure light.0000.exr --raster 240x160@30i,tff --display bwdif --json
 check "is shown by itself" value "d['frames'] == 1 and d['flicker']['rms'] is not None"
 

@@ -109,7 +109,12 @@ static weft_status make_chain(deinterlacing *d, const char *options, weft_error 
     if (code >= 0) code = avfilter_link(filter, 0, d->sink, 0);
     avfilter_graph_set_auto_convert(d->graph, (unsigned)AVFILTER_AUTO_CONVERT_NONE);
     if (code >= 0) code = avfilter_graph_config(d->graph, NULL);
-    return code < 0 ? failed(d, "it does not take this video's pixels", code, err) : WEFT_OK;
+    if (code >= 0) return WEFT_OK;
+    return wf_fail(
+        err, code == AVERROR(ENOMEM) ? WEFT_NO_MEMORY : WEFT_FAILED,
+        "--display %s: it takes no pictures of %dx%d as %s; convert the video to Y'CbCr "
+        "of 8 or 10 bits and at least 3x4, or measure with --display bob",
+        d->woven.filter, d->woven.width_px, d->woven.lines, d->pixels->name);
 }
 
 static weft_status deinterlace_open(const wf_woven *woven, void **state, weft_error *err) {
