@@ -36,6 +36,7 @@ typedef struct wf_metadata {
     bool tagged;                        /* the next three are said */
     wf_color_tags tags;
     int64_t frames;    /* -1: not said */
+    double start_s;    /* when its first picture is shown; 0: at the beginning, or not said */
     double video_s;    /* how long the video is; 0: not said */
     char timecode[32]; /* of the first frame, as it is written; "": none */
     int timecode_base; /* labels a second, of QuickTime's and MXF's; 0: not said */

@@ -17,6 +17,11 @@ wf_verdict wf_check_fiel(const wf_subject *s, wf_finding *f) {
     if (!s->metadata.has_fiel && interlaced && s->metadata.scan_known)
         return wf_open_question(f, "none, and the stream itself says its order");
     if (s->metadata.there.repeated) return wf_open_question(f, "its fields are repeated");
+    /* 1 and 6 are fields one after the other, as which libavformat has those of codecs that
+     * weave them themselves. */
+    bool apart = s->metadata.fiel[0] == 2 && s->metadata.fiel[1] == (detail == 9 ? 1 : 6);
+    if (interlaced && apart && wf_in_words("mpeg2video h264 hevc", s->metadata.codec))
+        return wf_open_question(f, is);
     bool left_out = !s->metadata.has_fiel && !interlaced;
     if (!s->metadata.has_fiel && s->metadata.of_mpeg4)
         return wf_open_question(f, "none, which ISO/IEC 14496-12 does not know");
@@ -46,9 +51,11 @@ static const struct {
     {720, 480, 711, 480},
 };
 
-/* Whether another maker cuts off as much; parts of a pixel do not count. */
+/* Whether another maker cuts off as much, or nothing, as libavformat does; parts of a pixel do
+ * not count. */
 static bool is_customary(const wf_raster *r, const int64_t clean[2]) {
     int64_t width = (clean[0] + 32768) >> 16, lines = (clean[1] + 32768) >> 16;
+    if (width == r->width_px && lines == r->lines) return true;
     for (size_t i = 0; i < sizeof apertures / sizeof *apertures; i++)
         if (apertures[i].width_px == r->width_px && apertures[i].lines == r->lines &&
             apertures[i].clean_width == width && apertures[i].clean_lines == lines)

@@ -89,10 +89,15 @@ static const struct {
     {576, {12, 11}}, {576, {16, 15}}, {576, {59, 54}}, {576, {128, 117}},
 };
 
-/* Whether another maker means the raster's shape by these pixels. */
+/* Whether another maker means the raster's shape by these pixels. Some give the picture's shape
+ * to all lines of D-10, those of the vertical interval too. */
 static bool is_customary(const wf_subject *s, wf_rational have) {
     bool wide = wf_ratio_value(s->raster.pixel_aspect) > 1.15;
+    int64_t above = s->figures.info.interval_lines;
     if (!of_601(&s->raster) || s->raster.width_px != 720) return false;
+    wf_rational all = wf_ratio_mul(picture_aspect(&s->raster),
+                                   wf_ratio(s->raster.lines + above, s->raster.width_px));
+    if (above && wf_ratio_equal(have, all)) return true;
     for (size_t i = 0; i < sizeof narrow_pixels / sizeof *narrow_pixels; i++) {
         wf_rational pixel = narrow_pixels[i].pixel;
         if (wide) pixel = wf_ratio(4 * pixel.num, 3 * pixel.den);

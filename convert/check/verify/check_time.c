@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "convert/check/verify/check_whole.h"
 #include "convert/job/timecode.h"
@@ -73,6 +74,10 @@ wf_verdict wf_check_frames(const wf_subject *s, wf_finding *f) {
     double said = s->metadata.frames > 0
                       ? (double)s->metadata.frames
                       : s->metadata.video_s * wf_ratio_value(s->metadata.rate);
+    /* AVI counts ticks of its own rate, of which some have no picture. */
+    double ticks = wf_ratio_value(s->metadata.rate);
+    if (!strcmp(s->metadata.container, "avi") && ticks > 0)
+        said *= wf_ratio_value(s->figures.info.raster.frame_rate) / ticks;
     if (said <= 0 || !s->structure.known || s->structure.fragments)
         return wf_open_question(f, "the container does not say");
     snprintf(is, sizeof is, "%.0f said, %" PRId64 " there", said, s->figures.frames);
@@ -92,12 +97,15 @@ wf_verdict wf_check_sound(const wf_subject *s, wf_finding *f) {
     const wf_metadata *c = &s->metadata;
     double video_s = wf_picture_s(s), there_s = c->there.sound_least_s;
     double stated_s = c->there.hidden ? 0 : c->sound_s; /* with what an edit list leaves out */
-    bool right = c->sound_rate == 48000 && fits(s, stated_s, video_s) &&
-                 fits(s, there_s, video_s) && fits(s, c->there.sound_most_s, video_s) &&
+    bool rate = c->sound_rate == 48000;
+    bool right = fits(s, stated_s, video_s) && fits(s, there_s, video_s) &&
+                 fits(s, c->there.sound_most_s, video_s) &&
                  (!(stated_s > 0) || fits(s, there_s, stated_s));
     bool other = fits(s, there_s, video_s);
     snprintf(is, sizeof is, "%d channels of %d Hz, %.3f s", c->sound_channels, c->sound_rate,
              !other || !(c->sound_s > 0) ? there_s : c->sound_s);
+    if (right && !rate && !s->profile) return wf_open_question(f, is);
+    right &= rate;
     snprintf(should, sizeof should, "48000 Hz, as long as the video, %.3f s", video_s);
     return wf_say(f, right, is, should);
 }

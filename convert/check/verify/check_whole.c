@@ -44,6 +44,9 @@ static double astray(const wf_subject *s, const wf_stated *stated) {
     double hidden_s = (double)s->metadata.there.hidden * frame_s;
     if (!strcmp(stated->of, "mdhd")) there_s += hidden_s; /* before the edit list */
     double far_s = fabs(stated->seconds - there_s);
+    /* libavformat's are when the stream ends. */
+    if (!strcmp(stated->of, "DURATION") || !strcmp(stated->of, "Duration"))
+        far_s = fmin(far_s, fabs(stated->seconds - there_s - s->metadata.start_s));
     if (stated->of_all && sound_s > there_s)
         far_s = fmax(there_s - stated->seconds, stated->seconds - sound_s) - block_s;
     /* An edit list may begin within a frame. */

@@ -72,7 +72,9 @@ static void take_said_raster(wf_subject *s) {
                                  : v->raster.name;
     bool progressive = !made_up && s->raster.scan == WF_PROGRESSIVE;
     s->raster_known = name ? wf_raster_parse(name, &s->raster, why, sizeof why) : known;
-    if (progressive && s->raster.scan == WF_INTERLACED) call_progressive(&s->raster);
+    bool misnamed = !name && s->raster.scan != v->raster.scan;
+    if ((progressive && s->raster.scan == WF_INTERLACED) || misnamed)
+        call_progressive(&s->raster);
 }
 
 static void find_raster(wf_subject *s, const wf_raster *asked) {

@@ -382,6 +382,13 @@ static bool is_customary(wf_rational rate) {
     return false;
 }
 
+/* Whether a mean is no rate of video, and what lies between most pictures is one like it: in
+ * milliseconds, and whatever is copied from those, frames of 30000/1001 are uneven. */
+static bool is_rounded(wf_rational mean, wf_rational between) {
+    if (!wf_ratio_given(between) || is_customary(mean) || !is_customary(between)) return false;
+    return fabs(wf_ratio_value(mean) / wf_ratio_value(between) - 1) < 0.01;
+}
+
 /* The rate at which frames are shown. Elementary streams have no times, and the demuxer makes
  * up 25 a second; fields that are packets of their own count twice; and where fields are
  * repeated, as in film on 60 fields, fewer frames are coded than are shown. A mean that is no
@@ -392,8 +399,10 @@ static wf_rational frame_rate(const reading *r) {
     wf_rational average = ratio_of(stream->avg_frame_rate);
     wf_rational between = ratio_of(stream->r_frame_rate); /* empty chunks of AVI, by times */
     wf_rational coded = ratio_of(r->codec->framerate);
-    if (!wf_ratio_given(average)) average = ratio_of(stream->r_frame_rate);
-    if (!wf_ratio_given(coded) || !wf_ratio_given(average)) return average;
+    if (!wf_ratio_given(average) || is_rounded(average, between)) average = between;
+    bool empty = !strcmp(r->format->iformat->name, "avi") && between.num > 0 &&
+                 wf_ratio_value(between) < 0.9 * wf_ratio_value(average);
+    if (!wf_ratio_given(coded) || !wf_ratio_given(average)) return empty ? between : average;
     double times = wf_ratio_value(average) / wf_ratio_value(coded);
     bool untimed = r->format->iformat->flags & AVFMT_NOTIMESTAMPS;
     bool by_fields = !strcmp(r->format->iformat->name, "gxf"); /* its time base is theirs */
@@ -401,8 +410,6 @@ static wf_rational frame_rate(const reading *r) {
     bool repeats =
         r->codec->codec_id == AV_CODEC_ID_MPEG2VIDEO && times > 0.79 && times < 0.999;
     bool rounded = fabs(times - 1) < 0.1 && is_customary(coded) && !is_customary(average);
-    bool empty = !strcmp(r->format->iformat->name, "avi") && between.num > 0 &&
-                 wf_ratio_value(between) < 0.9 * wf_ratio_value(average);
     return untimed || fields || repeats || rounded ? coded : empty ? between : average;
 }
 

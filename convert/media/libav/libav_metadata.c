@@ -48,6 +48,8 @@ static void read_video(const AVStream *s, wf_metadata *c) {
                 p->color_space != AVCOL_SPC_UNSPECIFIED;
     c->frames = s->nb_frames > 0 ? s->nb_frames : -1;
     c->video_s = seconds_of(s);
+    if (s->start_time != AV_NOPTS_VALUE && s->start_time > 0)
+        c->start_s = (double)s->start_time * av_q2d(s->time_base);
 }
 
 static void read_sound(const AVStream *s, wf_metadata *c) {
@@ -68,9 +70,9 @@ static void read_timecode(const AVDictionary *tags, wf_metadata *c) {
 
 /* Codecs whose pictures say when they are progressive; of others no word is no answer. */
 static bool says_progressive(enum AVCodecID id) {
-    static const enum AVCodecID ids[] = {AV_CODEC_ID_MPEG2VIDEO, AV_CODEC_ID_H264,
-                                         AV_CODEC_ID_HEVC,       AV_CODEC_ID_PRORES,
-                                         AV_CODEC_ID_DNXHD,      AV_CODEC_ID_VC1};
+    static const enum AVCodecID ids[] = {
+        AV_CODEC_ID_MPEG2VIDEO, AV_CODEC_ID_H264, AV_CODEC_ID_HEVC,      AV_CODEC_ID_PRORES,
+        AV_CODEC_ID_DNXHD,      AV_CODEC_ID_VC1,  AV_CODEC_ID_MPEG1VIDEO};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
         if (ids[i] == id) return true;
     return false;
