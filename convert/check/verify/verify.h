@@ -8,7 +8,7 @@
 #include "filters/raster/raster.h"
 
 /* Whether a delivered file says and holds what its raster, or a delivery profile, demands;
- * convert/check/README.md tells how the checks are made. */
+ * convert/check/verify/README.md tells how the checks are made. */
 
 typedef struct wf_verification {
     wf_raster raster; /* that it was held to */
