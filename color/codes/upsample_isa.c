@@ -17,7 +17,10 @@ static void signals(float *restrict signal, const uint16_t *restrict code, doubl
 static void of_bytes(float *restrict signal, const uint8_t *restrict code, double zero,
                      double per_code, size_t count) {
     float whole_zero = (float)zero, scale = (float)per_code;
-    for (size_t i = 0; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES)
+        put_lanes(signal + i, (lanes_of_bytes(code + i) - whole_zero) * scale);
+    for (; i < count; i++) signal[i] = ((float)code[i] - whole_zero) * scale;
 }
 
 /* Vectors side by side, so that no sum waits for another, and all sums of two phases fit into
@@ -107,7 +110,15 @@ static void rgb_of_bytes(const wf_rgb_of_chroma *matrix, const uint8_t *restrict
     float whole_zero = (float)zero, of_y = (float)matrix->luma, of_cr = (float)matrix->of_cr,
           of_cb = (float)matrix->of_cb;
     float green_cb = (float)matrix->green_cb, green_cr = (float)matrix->green_cr;
-    for (size_t i = 0; i < count; i++) {
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        lanes luma = of_y * (lanes_of_bytes(code + i) - whole_zero);
+        lanes blue = lanes_at(cb + i), red = lanes_at(cr + i);
+        put_lanes(r + i, luma + of_cr * red);
+        put_lanes(cb + i, luma - (green_cb * blue + green_cr * red));
+        put_lanes(cr + i, luma + of_cb * blue);
+    }
+    for (; i < count; i++) {
         float luma = of_y * ((float)code[i] - whole_zero), blue = cb[i], red = cr[i];
         r[i] = luma + of_cr * red;
         cb[i] = luma - (green_cb * blue + green_cr * red);

@@ -5,7 +5,7 @@
 
 #include "color/line/lanes.h"
 
-/* Signals below this have no light: theirs would be 7e-16 and less. */
+/* Signals below twice this have no light: theirs would be 4e-15 and less. */
 #define WF_GAMMA_BLACK 0x1p-21f
 
 /* c[0] + c[1] t + .. c[degree] t^degree */
@@ -22,27 +22,43 @@ static inline lanes mantissa(lanes x) {
 }
 
 /* x^2.4 to 2e-7 of itself, x from WF_GAMMA_BLACK to 2047. The polynomial is within 2.2e-8 by
- * itself; power[i] is 2^(2.4 (i - 21)). */
+ * itself; power[i] is 2^(2.4 (i - 21)), but power[0] is 0. */
 static inline lanes to_gamma(lanes x) {
     static const float mantissas[] = {2.64617777f,   4.23388481f,    1.97580874f,
                                       0.175608993f,  -0.0175139327f, 0.00390834501f,
                                       -0.0012575608f};
-    static const float power[32] = {6.73113372e-16f, 3.55271368e-15f,
-                                    1.87513352e-14f, 9.89701406e-14f,
-                                    5.22367534e-13f, 2.75707237e-12f,
-                                    1.45519152e-11f, 7.6805469e-11f,
-                                    4.05381696e-10f, 2.13961742e-09f,
-                                    1.12929684e-08f, 5.96046448e-08f,
-                                    3.14595201e-07f, 1.66044343e-06f,
-                                    8.76387295e-06f, 4.62559987e-05f,
-                                    0.000244140625f, 0.00128858194f,
-                                    0.00680117628f,  0.0358968236f,
-                                    0.189464571f,    1.0f,
-                                    5.27803164f,     27.857618f,
-                                    147.033389f,     776.046882f,
-                                    4096.0f,         21618.8176f,
-                                    114104.803f,     602248.763f,
-                                    3178688.03f,     16777216.0f};
+    static const float power[32] = {0,
+                                    3.55271368e-15f,
+                                    1.87513352e-14f,
+                                    9.89701406e-14f,
+                                    5.22367534e-13f,
+                                    2.75707237e-12f,
+                                    1.45519152e-11f,
+                                    7.6805469e-11f,
+                                    4.05381696e-10f,
+                                    2.13961742e-09f,
+                                    1.12929684e-08f,
+                                    5.96046448e-08f,
+                                    3.14595201e-07f,
+                                    1.66044343e-06f,
+                                    8.76387295e-06f,
+                                    4.62559987e-05f,
+                                    0.000244140625f,
+                                    0.00128858194f,
+                                    0.00680117628f,
+                                    0.0358968236f,
+                                    0.189464571f,
+                                    1.0f,
+                                    5.27803164f,
+                                    27.857618f,
+                                    147.033389f,
+                                    776.046882f,
+                                    4096.0f,
+                                    21618.8176f,
+                                    114104.803f,
+                                    602248.763f,
+                                    3178688.03f,
+                                    16777216.0f};
     whole_lanes octave = ((whole_lanes)x >> 23) - (127 - 21);
     return look_up_32(power, octave) * polynomial(mantissas, 6, mantissa(x));
 }

@@ -48,6 +48,34 @@ static inline void put_lanes(float *to, lanes v) {
     memcpy(to, &v, sizeof v);
 }
 
+static inline lanes lanes_of_bytes(const uint8_t *from) {
+#if defined(__AVX512F__)
+    return (lanes)_mm512_cvtepi32_ps(
+        _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)from)));
+#elif defined(__AVX2__)
+    return (lanes)_mm256_cvtepi32_ps(
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)from)));
+#else
+    lanes v;
+    for (int i = 0; i < LANES; i++) v[i] = (float)from[i];
+    return v;
+#endif
+}
+
+/* The whole numbers of v, from 0 to 65535, what follows the point being left off. */
+static inline void put_codes(uint16_t *to, lanes v) {
+#if defined(__AVX512F__)
+    __m256i codes = _mm512_cvtepi32_epi16(_mm512_cvttps_epi32((__m512)v));
+    _mm256_storeu_si256((__m256i *)to, codes);
+#elif defined(__AVX2__)
+    __m256i whole = _mm256_cvttps_epi32((__m256)v);
+    whole = _mm256_permute4x64_epi64(_mm256_packus_epi32(whole, whole), 0x08);
+    _mm_storeu_si128((__m128i *)to, _mm256_castsi256_si128(whole));
+#else
+    for (int i = 0; i < LANES; i++) to[i] = (uint16_t)(int32_t)v[i];
+#endif
+}
+
 static inline lanes lanes_of(float x) {
     return x - (lanes){0};
 }
@@ -76,6 +104,31 @@ static inline lanes smaller(lanes a, lanes b) {
 #else
     for (int i = 0; i < LANES; i++) a[i] = a[i] < b[i] ? a[i] : b[i];
     return a;
+#endif
+}
+
+/* x, but 0 where it is NaN. */
+static inline lanes numbers(lanes x) {
+#if defined(__AVX512F__)
+    __mmask16 good = _mm512_cmp_ps_mask((__m512)x, (__m512)x, _CMP_ORD_Q);
+    return (lanes)_mm512_maskz_mov_ps(good, (__m512)x);
+#else
+    return (lanes)((whole_lanes)x & (whole_lanes)(x == x));
+#endif
+}
+
+/* Whether x < limit in any lane. */
+static inline int any_below(lanes x, lanes limit) {
+#if defined(__AVX512F__)
+    return _mm512_cmp_ps_mask((__m512)x, (__m512)limit, _CMP_LT_OQ) != 0;
+#elif defined(__AVX2__)
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)x, (__m256)limit, _CMP_LT_OQ)) != 0;
+#elif defined(__SSE2__)
+    return _mm_movemask_ps(_mm_cmplt_ps((__m128)x, (__m128)limit)) != 0;
+#else
+    int any = 0;
+    for (int i = 0; i < LANES; i++) any |= x[i] < limit[i];
+    return any;
 #endif
 }
 

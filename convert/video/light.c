@@ -149,8 +149,11 @@ static void hold_lines(const wf_light *l, const rows_made *m, int p, const void 
     float *to = m->held;
     for (int i = m->held_first; i < end; i++, to += COLUMNS) {
         int line = wf_upsample_reflected(&l->down, i, l->chroma_lines, l->lines);
-        take_signals(l, to, plane, p, (size_t)line * (size_t)l->chroma_width_px + (size_t)x,
-                     count);
+        size_t at = (size_t)line * (size_t)l->chroma_width_px + (size_t)x;
+        /* What the next columns begin with: no processor expects steps from line to line. */
+        __builtin_prefetch((const char *)plane + (at + COLUMNS) * l->code_bytes);
+        __builtin_prefetch((const char *)plane + (at + COLUMNS) * l->code_bytes + 64);
+        take_signals(l, to, plane, p, at, count);
     }
 }
 
