@@ -11,8 +11,12 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    const wf_video_options options = {
-        .max_memory_bytes = (size_t)16 << 20, .want_times = true, .codes_only = true};
+    int ways = size ? data[size - 1] : 0;
+    const wf_video_options options = {.max_memory_bytes = (size_t)16 << 20,
+                                      .want_times = true,
+                                      .codes_only = true,
+                                      .mends = ways & 1,
+                                      .want_alpha = ways & 2};
     char path[64];
     int descriptor = memfd_create("video", 0);
     if (descriptor < 0 || write(descriptor, data, size) != (ssize_t)size) abort();
@@ -22,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     bool is_y4m = size > 9 && !memcmp(data, "YUV4MPEG2", 9);
     weft_status status =
         is_y4m || !size ? WEFT_OK : wf_video_open(path, &options, &video, &err);
-    if (!status && video) status = read_video(video, 2, &err);
+    if (!status && video) status = read_video(video, options.mends ? 6 : 2, &err);
     int64_t next;
     if (!status && video) status = wf_video_seek(video, 4, &next, &err);
     if (!status && video) status = read_video(video, 2, &err);

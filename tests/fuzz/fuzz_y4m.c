@@ -10,8 +10,12 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    const wf_video_options options = {
-        .max_memory_bytes = (size_t)16 << 20, .want_times = true, .codes_only = true};
+    int ways = size ? data[size - 1] : 0;
+    const wf_video_options options = {.max_memory_bytes = (size_t)16 << 20,
+                                      .want_times = true,
+                                      .codes_only = true,
+                                      .mends = ways & 1,
+                                      .want_alpha = ways & 2};
     char path[64];
     int descriptor = memfd_create("video.y4m", 0);
     if (descriptor < 0 || write(descriptor, data, size) != (ssize_t)size) abort();

@@ -126,6 +126,22 @@ head -c $(($(stat -c %s f.mkv) / 2)) f.mkv >cut.mkv
 check "cut off" exits 3 weft convert cut.mkv ${box/-q/} --on-missing hold -o o.y4m
 check "it is as long as it says" says "says that it has 100"
 check "that is" [ "$(stat -c %s o.y4m)" = "$(weft convert f.mkv $box -o o2.y4m && stat -c %s o2.y4m)" ]
+# Wherever it is cut, among pictures that change places as well, what is there keeps its place.
+whole=o2.y4m
+for file in b.mp4 b.mkv; do
+    check "$file whole" exits 0 weft convert $file $box $all --on-missing hold -o $whole
+    for tenth in 45 62 83; do
+        head -c $(($(stat -c %s $file) * tenth / 100)) $file >cut.${file#*.}
+        check "$tenth % of $file" exits 3 weft convert cut.${file#*.} $box $all --on-missing hold --report r.json -o o.y4m
+        check "is in its place" python3 -c '
+import json
+bad, good = (open(n, "rb").read().split(b"FRAME\n") for n in ("o.y4m", "o2.y4m"))
+lost = {n + 1 for n in json.load(open("r.json"))["input"]["missing"]}
+assert len(bad) == len(good) == 101 and all(bad[n] == good[n] for n in range(101) if n not in lost)'
+    done
+done
+quiet_ffmpeg -i b.mkv -vf "select='not(between(n,40,49))'" -fps_mode vfr -c:v libx264 fewer.mkv
+check "pictures that were left out on purpose are not missing" exits 0 weft convert fewer.mkv $box --on-missing hold -o o.y4m
 check "cut off by a pipe it is as long as it is" exits 3 weft convert <(cat cut.mkv) $box --on-missing hold -o o.y4m
 check "cut Y4M" eval 'head -c $(($(stat -c %s held.y4m) - 100)) held.y4m >cut.y4m; lacking hold 99 cut.y4m $all'
 check "by a pipe" exits 3 weft convert - $box --on-missing hold -o o.y4m <cut.y4m

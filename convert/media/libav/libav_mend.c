@@ -9,8 +9,11 @@
 
 /* A decoder that fails so often after its last packet does not come to its end. */
 #define MOST_FAILURES 1000
-/* That a file may say it has, beside those that are there. */
-#define MOST_ABSENT INT64_C(10000000)
+/* Pictures that may be lost at one place. */
+#define MOST_LOST INT64_C(10000000)
+/* How many times as many as are there a file may say it has: what is cut off is some of it, and
+ * lengths are damaged too. */
+#define MOST_TIMES 20
 
 void wf_libav_mend_again(wf_libav_reading *r) {
     av_frame_free(&r->held);
@@ -112,20 +115,56 @@ static int64_t skipped(const wf_video *v, int64_t ticks) {
         return r->lost;
     double since_s = (double)(ticks - since) * wf_ratio_value(v->info.tick_s);
     int64_t past = llround(since_s * wf_ratio_value(v->info.rate)) - !first;
-    return past > 0 && past < MOST_ABSENT ? past : 0;
+    return past > 0 && past < MOST_LOST ? past : 0;
 }
 
-/* The number of the frame in hand: where its time is listed, else by what was lost. */
+static int64_t ticks_off(const wf_video_info *info, int64_t n, int64_t ticks) {
+    return llabs(info->times[n] - ticks);
+}
+
+/* The number of the frame in hand: that of the nearest time that is listed, which may be
+ * rounded; else by what was lost. */
 static int64_t place_of(const wf_video *v) {
     const wf_libav_reading *r = v->state;
     const wf_video_info *info = &v->info;
     int64_t ticks = r->frame->best_effort_timestamp, n = v->frame.index;
     if (!info->times || r->by_decoding) return n + skipped(v, ticks);
-    while (n < info->frames && info->times[n] < ticks) n++;
-    return n < info->frames && info->times[n] == ticks ? n : v->frame.index;
+    while (n + 1 < info->frames && ticks_off(info, n + 1, ticks) < ticks_off(info, n, ticks))
+        n++;
+    return n < info->frames && ticks_off(info, n, ticks) <= 1 ? n : v->frame.index;
 }
 
 /* ---- What should be there ---- */
+
+/* Pictures that change places with the last are absent between those that are there. */
+#define MOST_DELAYED 16
+
+/* Ticks from one picture to the next, by the mean rate of the stream, if that is the rate of
+ * those that are there, all of them but at the end; else 0. */
+static double even_step(const wf_video *v) {
+    const wf_libav_reading *r = v->state;
+    const wf_video_info *info = &v->info;
+    double rate = av_q2d(r->format->streams[r->stream]->avg_frame_rate);
+    double step = rate > 0 ? 1 / (rate * wf_ratio_value(info->tick_s)) : 0;
+    for (int64_t n = 0; step > 0 && n < info->frames; n++) {
+        double since = (double)(info->times[n] - info->times[0]);
+        int64_t place = llround(since / step);
+        bool in_place = n < info->frames - MOST_DELAYED ? place == n : place >= n;
+        if (!in_place || fabs(since - step * (double)place) > 1) step = 0;
+    }
+    return step;
+}
+
+/* Those of a stream that states how long it is. */
+static int64_t absent_of_length(const wf_video *v, double length_s) {
+    const wf_video_info *info = &v->info;
+    double tick_s = wf_ratio_value(info->tick_s), step = even_step(v);
+    int64_t first = info->times[0], last = info->times[info->frames - 1], there = info->frames;
+    if (step <= 0) step = (double)(last - first) / (double)(there - 1);
+    double ends = length_s / tick_s, pictures = (ends - (double)first) / step;
+    if (ends < (double)last + 1.5 * step) return 0;
+    return pictures > 0 && pictures < (double)MOST_LOST ? llround(pictures) - there : 0;
+}
 
 /* How many pictures are absent at the end, which Matroska and an index tell. */
 static int64_t absent(const wf_video *v) {
@@ -133,14 +172,9 @@ static int64_t absent(const wf_video *v) {
     const wf_video_info *info = &v->info;
     int64_t packets = wf_libav_stated_packets(r), more = packets ? packets - r->listed : 0;
     bool matroska = !strncmp(r->format->iformat->name, "matroska", 8);
-    if (matroska && info->times && info->frames > 1) {
-        double tick_s = wf_ratio_value(info->tick_s);
-        int64_t last = info->times[info->frames - 1];
-        double each_s = (double)(last - info->times[0]) * tick_s / (double)(info->frames - 1);
-        double after_s = wf_libav_stated_length_s(r) - (double)last * tick_s - each_s;
-        if (each_s > 0 && after_s < each_s * MOST_ABSENT) more = llround(after_s / each_s);
-    }
-    return more < 0 || more > MOST_ABSENT ? 0 : more;
+    if (matroska && info->times && info->frames > 1)
+        more = absent_of_length(v, wf_libav_stated_length_s(r));
+    return more < 0 || more > MOST_TIMES * (info->frames + 10) ? 0 : more;
 }
 
 /* Those that are absent are shown as fast as the ones before them. */
@@ -148,12 +182,13 @@ static weft_status extend_times(wf_video *v, int64_t frames, weft_error *err) {
     wf_video_info *info = &v->info;
     int64_t there = info->frames;
     if (!info->times) return WEFT_OK;
+    double step = even_step(v), mean = (double)info->last_ticks;
     int64_t *grown = realloc(info->times, (size_t)frames * sizeof *grown);
     if (!grown) return wf_video_no_memory(v, err);
     info->times = grown;
-    double each = there > 1 ? (double)(grown[there - 1] - grown[0]) / (double)(there - 1)
-                            : (double)info->last_ticks;
-    for (int64_t n = there; n < frames; n++) grown[n] = grown[0] + llround(each * (double)n);
+    if (there > 1) mean = (double)(grown[there - 1] - grown[0]) / (double)(there - 1);
+    for (int64_t n = step > 0 ? 0 : there; n < frames; n++)
+        grown[n] = grown[0] + llround((step > 0 ? step : mean) * (double)n);
     return WEFT_OK;
 }
 

@@ -21,10 +21,10 @@ weft_status read_video(wf_video *video, int pictures, weft_error *err) {
     const wf_video_info *info = wf_video_info_of(video);
     wf_meaning meaning;
     wf_light *light = NULL;
-    void *plane[3] = {NULL};
+    void *plane[4] = {NULL};
     weft_status status = wf_meaning_of(info, "video", &meaning, err);
     if (!status) status = wf_light_new(info, &meaning, NULL, &light, err);
-    for (int p = 0; p < 3; p++) {
+    for (int p = 0; p < 4; p++) {
         int width, lines;
         wf_video_plane_size(video, p, &width, &lines);
         plane[p] = malloc((size_t)width * (size_t)lines * wf_video_code_bytes(info) + 1);
@@ -35,7 +35,7 @@ weft_status read_video(wf_video *video, int pictures, weft_error *err) {
         status = wf_video_next_codes(video, plane, &more, err);
         if (!status && more) make_rows(light, info, plane);
     }
-    for (int p = 0; p < 3; p++) free(plane[p]);
+    for (int p = 0; p < 4; p++) free(plane[p]);
     wf_light_free(light);
     return status;
 }
