@@ -107,7 +107,7 @@ class Case:
         if not os.path.exists(path):
             rows = []
             for count in FIXED:
-                picture, report, _ = self.render("fixed", "--samples", count, "--seed", 5)
+                picture, report, _ = self.render("fixed-picture", "--samples", count, "--seed", 5)
                 rows.append((self.true_rms(self.compare(picture, 1)), report["tracer"]["samples"], count))
             with open(path, "w") as f:
                 json.dump(rows, f)

@@ -5,7 +5,8 @@
     tests/bench/run.py BUILD --small             minutes less: ratios and counts only
     tests/bench/run.py BUILD --only tracer       one of: converter, tracer, targets, crowds, peers
     tests/bench/run.py BUILD --publish           writes the results into README.md; crowds
-                                                 alone have a table there of their own
+                                                 alone have a table there of their own, and of
+                                                 the tracer alone rows take those of before
     tests/bench/run.py BUILD --out DIR           where CSV and plots go [BUILD/bench]
 
 WEFT_SHARED names a directory of sample data; without its wheel/ some targets are skipped, and
@@ -298,13 +299,15 @@ def machine():
     return f"{THREADS} threads of {model}"
 
 
-def table(bench):
+def rows_of(bench):
     marks = {None: "skipped", True: "met", False: "**missed**"}
-    lines = ["| target | measured | asked | |", "|---|---|---|---|"]
     rows = [(what, says, asked, marks[met] + ("; " + note if note else ""))
             for what, says, asked, met, note in bench.rows]
-    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
-    text = "\n".join(lines) + "\n"
+    return ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+
+
+def table(bench):
+    text = "\n".join(["| target | measured | asked | |", "|---|---|---|---|", *rows_of(bench)]) + "\n"
     with open(os.path.join(bench.out, "table.md"), "w") as f:
         f.write(text)
     return text
@@ -321,16 +324,39 @@ def publish_crowds(bench, text):
                 f"{machine().split(' of ')[1]}.\n\n{text}<!-- crowds end -->{after}")
 
 
+def copy_plots(bench):
+    plots, pictures = sorted(glob.glob(os.path.join(bench.out, "*.svg"))), os.path.join(HERE, "results")
+    os.makedirs(pictures, exist_ok=True)
+    for path in plots:
+        shutil.copy(path, pictures)
+    return plots
+
+
+def publish_tracer(bench, text):
+    """Puts the rows of a run of the tracer alone in the place of those of before, with their day."""
+    page = os.path.join(HERE, "README.md")
+    with open(page) as f:
+        before, rest = f.read().split("<!-- results -->\n")
+    lines = rest.split("\n")
+    for row in rows_of(bench):
+        name, dated = row.split(" | ")[0], f"{row[:-2]}; {time.strftime('%Y-%m-%d')} |"
+        at = next((n for n, line in enumerate(lines) if line.split(" | ")[0] == name), None)
+        if at is None:
+            print(f"no row before: {row}")
+        else:
+            lines[at] = dated
+    with open(page, "w") as f:
+        f.write(before + "<!-- results -->\n" + "\n".join(lines))
+    copy_plots(bench)
+
+
 def publish(bench, text):
     """Writes the results into README.md, and the plots beside it."""
-    page, pictures = os.path.join(HERE, "README.md"), os.path.join(HERE, "results")
-    os.makedirs(pictures, exist_ok=True)
+    page = os.path.join(HERE, "README.md")
     with open(page) as f:
         before, rest = f.read().split("<!-- results -->\n")
     after = rest.split("<!-- end -->")[1]
-    plots = sorted(glob.glob(os.path.join(bench.out, "*.svg")))
-    for path in plots:
-        shutil.copy(path, pictures)
+    plots = copy_plots(bench)
     images = "\n".join(f"![](results/{os.path.basename(path)})" for path in plots)
     found = (f"<!-- results -->\n## Measured\n\n{time.strftime('%Y-%m-%d')}, {machine()}.\n\n"
              f"{text}\n{images}\n<!-- end -->")
@@ -352,9 +378,10 @@ def main():
              "targets": targets, "crowds": crowds.crowds,
              "peers": lambda b: scenes.peers(b, SCENES)}
     chosen = options.only.split(",")
-    alone = chosen == ["crowds"]
-    if options.publish and (options.small or not (alone or set(chosen) == set(parts))):
-        parser.error("--publish is of a whole run, or of crowds alone: without --small")
+    publishers = {"crowds": publish_crowds, "tracer": publish_tracer,
+                  ",".join(parts): publish}
+    if options.publish and (options.small or options.only not in publishers):
+        parser.error("--publish is of a whole run, or of crowds or tracer alone: without --small")
     unknown = [name for name in chosen if name not in parts]
     if unknown:
         parser.error(f"no part named {unknown[0]}: {', '.join(parts)}")
@@ -366,7 +393,7 @@ def main():
         shutil.rmtree(bench.work)
     text = table(bench)
     if options.publish:
-        (publish_crowds if alone else publish)(bench, text)
+        publishers[options.only](bench, text)
     missed = [row for row in bench.rows if row[3] is False]
     print(f"{len(bench.rows) - len(missed)} of {len(bench.rows)} targets met or skipped; see "
           f"{bench.out}")

@@ -90,12 +90,16 @@ static void mix(const wf_adaptive *a, int at, double rgb[3]) {
     for (int k = 0; k < 3; k++) rgb[k] = sum[k] / weight;
 }
 
+/* Cells have powers of two of samples, up to WF_MOST_SAMPLES. */
+#define MOST_POWERS 16
+
 /* Of each cell, one sample: squared, on the display. */
 typedef struct pool {
     const wf_adaptive *a;
-    double one[GRID_CELLS];    /* what it would be off, so that N are off 1 / N^fall of that */
-    double within[GRID_CELLS]; /* how far it lies from the mean */
-    double cut[GRID_CELLS];    /* what it would be off in what an aperture's edge cuts off */
+    double one[GRID_CELLS];     /* what it would be off, so that N are off 1 / N^fall of that */
+    double within[GRID_CELLS];  /* how far it lies from the mean */
+    double cut[GRID_CELLS];     /* what it would be off in what an aperture's edge cuts off */
+    double fallen[MOST_POWERS]; /* what so many samples leave of it: of 2^n */
 } pool;
 
 /* How far one sample of a cell lies from their mean; squared, on the display. */
@@ -202,6 +206,10 @@ static void find_caution(wf_adaptive *a) {
     a->caution = caution_for(a, uncertain / own);
 }
 
+static double fallen(const pool *p, const wf_adaptive_cell *c) {
+    return p->fallen[ilogb(WF_QUARTERS * c->each)];
+}
+
 /* V(N/4) - V(N) is the sum of both gains; what is left of it follows from the fall. */
 static void find_ones(wf_adaptive *a, pool *p) {
     gains all[GRID_CELLS];
@@ -215,11 +223,11 @@ static void find_ones(wf_adaptive *a, pool *p) {
         p->cut[at] = cut_of(a, p, at, mixed);
     }
     find_fall(a, all);
+    for (int n = 0; n < MOST_POWERS; n++) p->fallen[n] = exp2(-a->fall * n);
+    double beyond_all = exp2(2 * a->fall) - 1;
     for (int at = 0; at < GRID_CELLS; at++) {
-        double count = WF_QUARTERS * a->cell[at].each;
         if (!a->cell[at].there) continue;
-        p->one[at] =
-            (all[at].half + all[at].quarter) / (pow(4, a->fall) - 1) * pow(count, a->fall);
+        p->one[at] = (all[at].half + all[at].quarter) / (beyond_all * fallen(p, &a->cell[at]));
         if (!a->edge[at].found) a->cell[at].one = p->one[at];
     }
 }
@@ -250,7 +258,7 @@ static double need_of(const pool *p, int at) {
     double one = fmax(mean_about(p, at), fmax(OF_PAIR * largest_pair(p, at), own * p->one[at]));
     double missed = largest_hidden(p, at) / (2 * count * count);
     double seen =
-        is_plain(p, at, one) ? MISSED * one / (count * count) : one * pow(count, -a->fall);
+        is_plain(p, at, one) ? MISSED * one / (count * count) : one * fallen(p, &a->cell[at]);
     double cut = CUT * p->cut[at] / (count * sqrt(count));
     return fmax(fmax(seen, missed), cut) * wf_adaptive_share(a);
 }
@@ -265,23 +273,19 @@ static double need_of(const pool *p, int at) {
 /* From this part of the error that cells may have they count here; squared. */
 #define COUNTS 1e-4
 
-static double allowed_of(const wf_adaptive *a, const wf_adaptive_cell *c) {
-    return pow(c->need * pow(WF_QUARTERS * c->each, a->fall), SPREAD);
-}
-
-static void find_allowed(wf_adaptive *a) {
+static void find_allowed(const pool *p, wf_adaptive *a) {
     double sum = 0, count = 0;
     for (int at = 0; at < GRID_CELLS; at++) {
         wf_adaptive_cell *c = &a->cell[at];
-        c->allowed = 1;
+        c->allowed = c->need > 0 && c->own ? pow(c->need / fallen(p, c), SPREAD) : 0;
         if (!c->own || !(c->need > COUNTS * wf_adaptive_target(a))) continue;
-        sum += allowed_of(a, c);
+        sum += c->allowed;
         count++;
     }
-    for (int at = 0; at < GRID_CELLS && count > 0; at++) {
+    for (int at = 0; at < GRID_CELLS; at++) {
         wf_adaptive_cell *c = &a->cell[at];
-        if (!c->own || !(c->need > 0)) continue;
-        c->allowed = fmin(fmax(allowed_of(a, c) * count / sum, LEAST_ALLOWED), MOST_ALLOWED);
+        double share = count > 0 ? c->allowed * count / sum : 1;
+        c->allowed = c->allowed > 0 ? fmin(fmax(share, LEAST_ALLOWED), MOST_ALLOWED) : 1;
     }
 }
 
@@ -291,5 +295,5 @@ void wf_pool_errors(wf_adaptive *a) {
     for (int at = 0; at < GRID_CELLS; at++)
         if (a->cell[at].there) a->cell[at].need = need_of(&p, at);
     find_caution(a);
-    find_allowed(a);
+    find_allowed(&p, a);
 }

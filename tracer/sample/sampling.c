@@ -23,8 +23,10 @@ static bool make_parts(wf_sampling *s) {
     s->tracer = wf_tracer_new(s->desc.scene, &view);
     int count = adapts(s) ? WF_QUARTERS * WF_MOST_EACH : s->desc.count;
     s->sampler = wf_sampler_new(s->desc.sampler, count, s->desc.seed);
-    s->tile_error = calloc((size_t)wf_sampling_tiling(s).count, sizeof *s->tile_error);
-    return s->tracer && s->sampler && s->tile_error;
+    size_t tiles = (size_t)wf_sampling_tiling(s).count;
+    s->tile_error = calloc(tiles, sizeof *s->tile_error);
+    s->tile_sight = calloc(tiles + 1, sizeof *s->tile_sight);
+    return s->tracer && s->sampler && s->tile_error && s->tile_sight;
 }
 
 wf_sampling *wf_sampling_new(const wf_sampling_desc *desc) {
@@ -50,6 +52,7 @@ void wf_sampling_free(wf_sampling *s) {
     wf_tracer_free(s->tracer);
     wf_sampler_free(s->sampler);
     free(s->tile_error);
+    free(s->tile_sight);
     free(s);
 }
 
@@ -116,7 +119,8 @@ bool wf_sampling_look(wf_sampling *s, wf_sampling_scratch *c, int64_t unit) {
     s->start = s->periods ? 0 : -s->anchor * s->tau;
     if (!wf_tracer_look(s->tracer, &window, s->desc.skip)) return false;
     const double x[2] = {0, s->raster.width_px}, y[2] = {0, s->raster.lines};
-    s->still = wf_trace_still(s->tracer, c->trace, x, y);
+    wf_trace_sight *sight = &s->tile_sight[wf_sampling_tiling(s).count];
+    s->still = wf_trace_still(s->tracer, c->trace, x, y, sight);
     s->nothing = wf_trace_nothing(s->tracer, c->trace, x, y);
     return true;
 }
@@ -203,7 +207,8 @@ static void recall_error(wf_tile *t, int first, int end, bool background) {
 static bool trace_tile(wf_tile *t, int first, int end) {
     int about = adapts(t->s) ? wf_adaptive_about(t->s) : 0;
     const double x[2] = {t->x0 - about, t->x1 + about}, y[2] = {first - about, end + about};
-    bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y);
+    wf_trace_sight *sight = &t->s->tile_sight[tile_index(t, first)];
+    bool empty, still = t->s->still || wf_trace_still(t->s->tracer, t->c->trace, x, y, sight);
     t->timeless = still || (!(t->s->tau > 0) && !wf_tracer_own_widths(t->s->tracer));
     t->time = still ? STILL : t->s->unit;
     const float *all = t->receiver->tile ? background_of(t, first, end) : NULL;

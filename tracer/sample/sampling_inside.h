@@ -39,6 +39,7 @@ struct wf_sampling {
     double start;             /* of the unit's window, field periods from the field's instant */
     wf_error_sum *tile_error; /* [tiles]: what was last found of each, which one thread at a
                                  time writes */
+    wf_trace_sight *tile_sight; /* [tiles], and that of all of the picture; as tile_error */
 };
 
 /* Memory that looking for edges keeps from tile to tile. */

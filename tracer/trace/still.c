@@ -1,6 +1,7 @@
 /* Whether a tile is still: no moving part can be seen in it, nor come between a light and what
  * can. Where the latter is, the boxes of parts say, as far as the tile's own rays go. */
 #include <math.h>
+#include <string.h>
 
 #include "tracer/trace/camera.h"
 
@@ -118,26 +119,52 @@ static bool endless_moves(const wf_tracer *t) {
     return false;
 }
 
-bool wf_trace_still(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
-                    const double y[2]) {
-    if (t->all_still) return true;
-    if (wf_op_moves(t->scene, t->scene->camera.op) || endless_moves(t)) return false;
-    wf_shaft shaft = wf_camera_shaft(t, x, y);
-    if (t->walk->find(&t->moving_tree, &shaft, 0, s->found) > 0) return false;
+static void find_corners(const wf_tracer *t, const double x[2], const double y[2],
+                         wf_rays *rays) {
     wf_packet corner;
+    double xs[WF_PACKET], ys[WF_PACKET];
     corner.rays.count = 4;
     corner.late_s = 0;
-    double xs[WF_PACKET], ys[WF_PACKET];
     for (int i = 0; i < WF_PACKET; i++) {
         xs[i] = x[i & 1], ys[i] = y[i >> 1 & 1];
         corner.f[i] = 0;
     }
     wf_camera_rays(t, xs, ys, &corner);
-    wf_bounds lit = wf_bounds_none();
+    *rays = corner.rays;
+}
+
+/* Looks at all parts in a rectangle that stand still. */
+static bool look_at_parts(const wf_tracer *t, wf_trace_scratch *s, const wf_rays *corner,
+                          const wf_shaft *shaft, wf_bounds *lit) {
     for (int n = 0; n < t->endless_count; n++)
-        if (!part_still(t, t->endless[n], &corner.rays, &shaft, &lit)) return false;
-    int count = t->walk->find(wf_groves_still(t->groves), &shaft, t->part_count, s->found);
+        if (!part_still(t, t->endless[n], corner, shaft, lit)) return false;
+    int count = t->walk->find(wf_groves_still(t->groves), shaft, t->part_count, s->found);
     for (int n = 0; n < count; n++)
-        if (!part_still(t, s->found[n], &corner.rays, &shaft, &lit)) return false;
+        if (!part_still(t, s->found[n], corner, shaft, lit)) return false;
+    return true;
+}
+
+static void find_sight(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
+                       const double y[2], const wf_shaft *shaft, wf_trace_sight *sight) {
+    wf_bounds lit = wf_bounds_none();
+    wf_rays corner;
+    find_corners(t, x, y, &corner);
+    sight->plain = look_at_parts(t, s, &corner, shaft, &lit);
+    memcpy(sight->low, lit.low, sizeof lit.low);
+    memcpy(sight->high, lit.high, sizeof lit.high);
+    sight->known = true;
+}
+
+bool wf_trace_still(const wf_tracer *t, wf_trace_scratch *s, const double x[2],
+                    const double y[2], wf_trace_sight *sight) {
+    if (t->all_still) return true;
+    if (wf_op_moves(t->scene, t->scene->camera.op) || endless_moves(t)) return false;
+    wf_shaft shaft = wf_camera_shaft(t, x, y);
+    if (t->walk->find(&t->moving_tree, &shaft, 0, s->found) > 0) return false;
+    if (!sight->known) find_sight(t, s, x, y, &shaft, sight);
+    if (!sight->plain) return false;
+    wf_bounds lit;
+    memcpy(lit.low, sight->low, sizeof lit.low);
+    memcpy(lit.high, sight->high, sizeof lit.high);
     return wf_bounds_empty(&lit) || light_still(t, s, &lit);
 }

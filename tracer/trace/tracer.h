@@ -60,11 +60,18 @@ wf_trace_scratch *wf_trace_scratch_new(const wf_tracer *tracer);
 void wf_trace_scratch_free(wf_trace_scratch *scratch); /* NULL is fine */
 wf_trace_counts wf_trace_counted(const wf_trace_scratch *scratch);
 
+/* What stands still in a rectangle, which is the same in all windows of time: whoever asks of
+ * the same one again keeps it, zero at first; one thread at a time. */
+typedef struct wf_trace_sight {
+    bool known, plain;      /* plain: nothing mirrors or is clear, and all of it has an end */
+    double low[3], high[3]; /* the box of what takes light */
+} wf_trace_sight;
+
 /* Whether what a rectangle of the raster shows is proved to look alike in all windows of time
  * in which it is still: nothing that can be seen in it, or come between that and a light,
  * moves. */
 bool wf_trace_still(const wf_tracer *tracer, wf_trace_scratch *scratch, const double x[2],
-                    const double y[2]);
+                    const double y[2], wf_trace_sight *sight);
 
 /* Prepares for samples inside a rectangle: finds what can be seen there; *empty: nothing but
  * background. False: no memory. */
