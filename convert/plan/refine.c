@@ -212,6 +212,10 @@ static weft_status begin(const wf_plan *plan, wf_refining *r, weft_error *err) {
             err, WEFT_USAGE,
             "--refine needs to know how far off pixels may be; give --error too, such "
             "as --error 0.005");
+    if (plan->job.raster.pulldown)
+        return wf_fail(err, WEFT_USAGE,
+                       "--refine and --cadence: film is converted at an even rate, and what is "
+                       "refined has times of its own; plan without --refine");
     size_t fields = (size_t)(plan->end_field - plan->first_field);
     *r = (wf_refining){plan, wf_ratio_value(plan->job.error),
                        calloc(plan->count + 1, sizeof *r->slot), plan->count,

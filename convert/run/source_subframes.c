@@ -6,6 +6,7 @@
 #include "convert/read/rate.h"
 #include "convert/run/fitting.h"
 #include "convert/run/time/picture_rate.h"
+#include "convert/run/time/planned.h"
 #include "convert/run/pictures.h"
 #include "convert/run/refined.h"
 #include "convert/run/subframe_check.h"
@@ -126,16 +127,16 @@ static weft_status settle_rate(const weft_job *job, wf_run *run, weft_error *err
     subframes *s = run->source;
     bool given = wf_ratio_given(job->subframe_rate);
     char text[48] = "irregular";
-    weft_status status = WEFT_OK;
-    status = wf_refine_sequence(job, &s->first.info, &run->setup.sequence, &s->shown,
-                                &s->refined, err);
+    weft_status status = wf_refine_sequence(job, &s->first.info, &run->setup.sequence,
+                                            &s->shown, &s->refined, err);
     if (status) return status;
     if (s->refined.units) {
         wf_take(&run->report->taken, "rate", "refined", "file");
         return WEFT_OK;
     }
     s->shown.rate = job->subframe_rate;
-    if (!given)
+    status = wf_take_planned(job, &s->first.info, &run->setup.sequence, &s->shown.rate, err);
+    if (!status && !wf_ratio_given(s->shown.rate))
         status = wf_shown_by_files(job->inputs[0], &s->first.info, &run->setup.sequence,
                                    &s->shown, err);
     if (status) return status;
@@ -228,6 +229,8 @@ static weft_status settle_fields(wf_run *run, weft_error *err) {
     if (!wf_timing_init(&timing, &desc.timing, why, sizeof why))
         return wf_fail(err, WEFT_FAILED, "%s", why);
     int64_t frames = wf_timing_frames(&desc.timing);
+    int64_t asked = run->job->output_end;
+    if (asked > frames && wf_timing_covers(&desc.timing, asked - 1)) frames = asked;
     if (frames < 1) return refuse_few(run, err);
     status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
     if (status) return status;

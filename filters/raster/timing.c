@@ -259,12 +259,25 @@ static int end_order(const wf_timing *t, wf_ticks instant) {
     return (end > instant) - (end < instant);
 }
 
-static bool is_whole(const wf_timing *t, int64_t frame) {
+/* < 0, 0, > 0 where the last cell ends before, at or after the last window of a frame does. */
+static int last_window_order(const wf_timing *t, int64_t frame) {
     int fields = wf_raster_fields_per_frame(t->raster);
-    int64_t first = frame * fields, last = first + fields - 1;
+    int64_t last = frame * fields + fields - 1;
+    return end_order(t, window_start(t, last, t->raster->lines - 1) + t->width);
+}
+
+static bool is_whole(const wf_timing *t, int64_t frame) {
+    int64_t first = frame * wf_raster_fields_per_frame(t->raster);
     if (end_order(t, wf_raster_instant(t->raster, first) * t->tick_rate) <= 0) return false;
-    int end = end_order(t, window_start(t, last, t->raster->lines - 1) + t->width);
+    int end = last_window_order(t, frame);
     return t->width ? end >= 0 : end > 0;
+}
+
+bool wf_timing_covers(const wf_timing_desc *desc, int64_t frame) {
+    wf_timing timing;
+    char why[512];
+    return wf_timing_init(&timing, desc, why, sizeof why) && timing.width &&
+           last_window_order(&timing, frame) >= 0;
 }
 
 /* Windows of later frames are later, so that a frame that is not whole is the last to ask. */

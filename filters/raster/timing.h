@@ -80,6 +80,11 @@ bool wf_timing_set_edges(wf_timing *timing, const wf_rational *edges, int64_t fr
  * before it). 0 where wf_timing_init refuses. */
 int64_t wf_timing_frames(const wf_timing_desc *desc);
 
+/* Whether all windows of a frame, of some width, end by the end of the last cell, where its
+ * instant may lie too (of windows that end at it): who asks for this frame by its number can
+ * have it. */
+bool wf_timing_covers(const wf_timing_desc *desc, int64_t frame);
+
 /* The window of frame line `line` of a field; the line matters only under scan skew. */
 wf_window wf_timing_window(const wf_timing *timing, int64_t field, int line);
 

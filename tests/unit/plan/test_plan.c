@@ -167,7 +167,14 @@ static void planned_alone_are_enough(void **state) {
         keep(numbers, planned, count);
         job_done(options, "out.y4m", report);
         job_same("out.y4m", all, size);
+        /* Without a range as well: their numbers count from 0. */
+        snprintf(options, sizeof options, "%s output-frames=%d-%d overwrite", looks, first,
+                 last);
+        job_done(options, "alone.y4m", report);
+        job_same("alone.y4m", all, size);
         assert_non_null(strstr(report, "\"missing\": []"));
+        snprintf(options, sizeof options, "%s frames=0-%d output-frames=%d-%d overwrite", looks,
+                 count - 1, first, last);
         name_of(path, numbers[dice(planned)]);
         if (planned > 1 && unlink(path) == 0)
             job_refused(options, "out.y4m", WEFT_FAILED, "is missing (1 of the");
