@@ -180,30 +180,27 @@ static double largest_pair(const pool *p, int at) {
 }
 
 /* Of the tile's pixels this share may be off by more than the error asked for: the fewer of
- * them are uncertain at all, the more may these be. Where pixels see parts of many cells, what
- * these are off adds up to something more even. */
-#define OUTSIDE      0.006
-#define OUTSIDE_WIDE 0.011
+ * them are uncertain at all, the more may these be. */
+#define OUTSIDE 0.006
 
 /* A cell counts as uncertain from this part of the most that it may be off; squared. */
 #define UNCERTAIN 0.3
 
 /* The deviation beyond which a share p of normal errors lies is about sqrt(-2 ln p) - 0.44. */
-static double caution_for(const wf_adaptive *a, double uncertain) {
-    double outside = wf_cuts_cells(a->s) ? OUTSIDE_WIDE : OUTSIDE;
-    double share = outside / fmax(uncertain, 0.05);
+static double caution_for(double uncertain) {
+    double share = OUTSIDE / fmax(uncertain, 0.05);
     return 1 / (sqrt(-2 * log(share)) - 0.44);
 }
 
 static void find_caution(wf_adaptive *a) {
-    double most = a->s->desc.error * caution_for(a, 0), own = 0, uncertain = 0;
+    double most = a->s->desc.error * caution_for(0), own = 0, uncertain = 0;
     for (int at = 0; at < GRID_CELLS; at++) {
         const wf_adaptive_cell *c = &a->cell[at];
         if (!c->own) continue;
         own++;
         uncertain += c->need > UNCERTAIN * most * most;
     }
-    a->caution = caution_for(a, uncertain / own);
+    a->caution = caution_for(uncertain / own);
 }
 
 static double fallen(const pool *p, const wf_adaptive_cell *c) {
