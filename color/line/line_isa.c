@@ -328,7 +328,7 @@ static void half_band(float *restrict out, const float *restrict even,
     }
     for (; i < count; i++) {
         float sum = 0.5f * even[i];
-        for (size_t j = 0; j < pairs; j++) sum += pair[j] * (odd[i + j] + odd[i - j - 1]);
+        for (size_t j = 0; j < pairs; j++) sum += pair[j] * (odd[i + j] + *(odd + i - j - 1));
         out[i] = sum;
     }
 }
