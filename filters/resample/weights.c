@@ -93,8 +93,8 @@ static bool add_band(builder *b, int index, int *top_line) {
         if (!add_row(b, row, top_line)) return false;
     band->terms.end = w->term_count;
     band->sums.end = w->sum_count;
-    qsort(w->terms + band->terms.first, (size_t)(band->terms.end - band->terms.first),
-          sizeof *w->terms, by_sum_then_row);
+    size_t terms = (size_t)(band->terms.end - band->terms.first);
+    if (terms) qsort(w->terms + band->terms.first, terms, sizeof *w->terms, by_sum_then_row);
     int sums = band->sums.end - band->sums.first;
     if (sums > w->most_sums) w->most_sums = sums;
     return true;
