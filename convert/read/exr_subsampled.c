@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "color/codes/chroma.h"
+#include "convert/base/reserve.h"
+#include "convert/read/chunk.h"
 #include "convert/read/nan_fix.h"
 #include "convert/read/source_exr.h"
 
@@ -24,7 +26,10 @@ typedef struct reading {
     int count;
     size_t *line_bytes; /* [channels of the file], of a line that has samples */
     float *line;        /* for interpolation: of the longer side, twice */
-    exr_decode_pipeline_t pipeline;
+    wf_chunk_decoder decoder;
+    uint8_t *packed, *samples; /* of a chunk that weft decodes itself */
+    size_t packed_capacity, samples_capacity;
+    exr_decode_pipeline_t pipeline; /* of the others */
     bool started;
     int chunk_y; /* the first line of the chunk in hand */
 } reading;
@@ -82,13 +87,17 @@ static weft_status start(reading *r, const wf_subframe *s, float *planes, weft_e
     size_t longer = (r->width > r->lines ? r->width : r->lines) + 4;
     r->line_bytes = calloc((size_t)r->list->num_channels, sizeof *r->line_bytes);
     r->line = malloc(2 * longer * sizeof *r->line);
-    weft_status status = r->line_bytes && r->line ? measure_lines(r, err) : no_memory(r, err);
+    bool ready = wf_chunk_decoder_init(&r->decoder) && r->line_bytes && r->line;
+    weft_status status = ready ? measure_lines(r, err) : no_memory(r, err);
     for (; !status && r->count < s->pick.count; r->count++)
         status = make_plane(r, r->count, planes + (size_t)r->count * r->width * r->lines, err);
     return status;
 }
 
 static void end(reading *r) {
+    wf_chunk_decoder_free(&r->decoder);
+    free(r->packed);
+    free(r->samples);
     if (r->started) exr_decoding_destroy(r->s->exr, &r->pipeline);
     for (int p = 0; p < 4; p++)
         if (!r->plane[p].borrowed) free(r->plane[p].sample);
@@ -112,14 +121,10 @@ static void take_line(reading *r, int channel, int line, const uint8_t *from) {
     }
 }
 
-/* In place of the library's own routines, of which that of version 3.1 for three channels takes
- * all for whole ones. Lines of all channels follow each other, less those without samples. */
-static exr_result_t take_lines(exr_decode_pipeline_t *pipeline) {
-    reading *r = pipeline->decoding_user_data;
-    const uint8_t *from = pipeline->unpacked_buffer;
-    size_t left = pipeline->chunk.unpacked_size;
+/* Lines of all channels follow each other, less those without samples. */
+static exr_result_t take_lines(reading *r, const uint8_t *from, size_t left, int lines) {
     wf_box data = r->s->info.data;
-    for (int y = r->chunk_y; y < r->chunk_y + pipeline->chunk.height && y < data.y1; y++)
+    for (int y = r->chunk_y; y < r->chunk_y + lines && y < data.y1; y++)
         for (int c = 0; c < r->list->num_channels; c++) {
             const exr_attr_chlist_entry_t *channel = &r->list->entries[c];
             if (y % channel->y_sampling) continue;
@@ -132,21 +137,59 @@ static exr_result_t take_lines(exr_decode_pipeline_t *pipeline) {
     return left ? EXR_ERR_CORRUPT_CHUNK : EXR_ERR_SUCCESS;
 }
 
-static exr_result_t decode_chunk(reading *r, int y) {
+/* In place of the library's own routines, of which that of version 3.1 for three channels takes
+ * all for whole ones. */
+static exr_result_t take_unpacked(exr_decode_pipeline_t *pipeline) {
+    return take_lines(pipeline->decoding_user_data, pipeline->unpacked_buffer,
+                      pipeline->chunk.unpacked_size, pipeline->chunk.height);
+}
+
+static exr_result_t decode_by_core(reading *r, const exr_chunk_info_t *chunk) {
     const wf_subframe *s = r->s;
-    exr_chunk_info_t chunk;
-    r->chunk_y = y;
-    exr_result_t result = exr_read_scanline_chunk_info(s->exr, s->part, y, &chunk);
-    if (result == EXR_ERR_SUCCESS)
-        result = r->started ? exr_decoding_update(s->exr, s->part, &chunk, &r->pipeline)
-                            : exr_decoding_initialize(s->exr, s->part, &chunk, &r->pipeline);
+    exr_result_t result = r->started
+                              ? exr_decoding_update(s->exr, s->part, chunk, &r->pipeline)
+                              : exr_decoding_initialize(s->exr, s->part, chunk, &r->pipeline);
     if (result != EXR_ERR_SUCCESS) return result;
     if (!r->started)
         result = exr_decoding_choose_default_routines(s->exr, s->part, &r->pipeline);
     r->started = true;
-    r->pipeline.unpack_and_convert_fn = take_lines;
+    r->pipeline.unpack_and_convert_fn = take_unpacked;
     r->pipeline.decoding_user_data = r;
     return result == EXR_ERR_SUCCESS ? exr_decoding_run(s->exr, s->part, &r->pipeline) : result;
+}
+
+/* A chunk that is as long as its samples holds these. */
+static exr_result_t decode_by_own(reading *r, const exr_chunk_info_t *chunk,
+                                  const wf_exr_shape *shape) {
+    const wf_subframe *s = r->s;
+    size_t packed = (size_t)chunk->packed_size;
+    if (chunk->unpacked_size != shape->bytes || packed > shape->bytes)
+        return EXR_ERR_CORRUPT_CHUNK;
+    if (!wf_reserve(&r->packed, &r->packed_capacity, packed) ||
+        !wf_reserve(&r->samples, &r->samples_capacity, shape->bytes))
+        return EXR_ERR_OUT_OF_MEMORY;
+    exr_result_t result = exr_read_chunk(s->exr, s->part, chunk, r->packed);
+    if (result != EXR_ERR_SUCCESS) return result;
+    if (packed == shape->bytes) return take_lines(r, r->packed, packed, chunk->height);
+    weft_status status = wf_exr_decode_of(s->layout.compression)(
+        &r->decoder.exr, shape, r->packed, packed, r->samples, NULL);
+    if (status) return status == WEFT_NO_MEMORY ? EXR_ERR_OUT_OF_MEMORY : EXR_ERR_CORRUPT_CHUNK;
+    return take_lines(r, r->samples, shape->bytes, chunk->height);
+}
+
+static exr_result_t decode_chunk(reading *r, int y) {
+    const wf_subframe *s = r->s;
+    exr_chunk_info_t chunk;
+    wf_exr_shape shape;
+    wf_box data = s->info.data;
+    int end = data.y1 - y < s->layout.chunk_lines ? data.y1 : y + s->layout.chunk_lines;
+    r->chunk_y = y;
+    exr_result_t result = exr_read_scanline_chunk_info(s->exr, s->part, y, &chunk);
+    if (result != EXR_ERR_SUCCESS) return result;
+    if (!wf_exr_decode_of(s->layout.compression)) return decode_by_core(r, &chunk);
+    return wf_chunk_shape(&r->decoder, s, (wf_box){data.x0, y, data.x1, end}, &shape)
+               ? decode_by_own(r, &chunk, &shape)
+               : EXR_ERR_OUT_OF_MEMORY;
 }
 
 static weft_status decode_all(reading *r, weft_error *err) {

@@ -116,41 +116,6 @@ static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int pa
 
 /* ---- EXR ---- */
 
-#define NAME_SIZE 256 /* of a channel, '\0' included */
-
-/* The picked channels' places in the module's order, which is not the file's. */
-static weft_status find_again(wf_subframe *s, const wf_source_options *o,
-                              char wanted[4][NAME_SIZE], weft_error *err) {
-    wf_image_info again;
-    char *names = NULL;
-    int count = 0;
-    weft_status status = probe(s, o, &again, &count, &names, err);
-    for (int c = 0; !status && c < s->pick.count; c++) {
-        const char *name = names;
-        int i = 0;
-        while (i < count && strcmp(name, wanted[c])) i++, name += strlen(name) + 1;
-        s->pick.channel[c] = i;
-        if (i == count)
-            status = wf_fail(err, WEFT_FAILED,
-                             "%s: OpenImageIO does not find its channel %s; write it with ZIP",
-                             s->path, wanted[c]);
-    }
-    free(names);
-    return status;
-}
-
-static weft_status read_by_module(wf_subframe *s, const wf_source_options *o, weft_error *err) {
-    char wanted[4][NAME_SIZE];
-    const exr_attr_chlist_t *list = NULL;
-    exr_get_channels(s->exr, s->part, &list);
-    for (int c = 0; c < s->pick.count; c++)
-        snprintf(wanted[c], NAME_SIZE, "%s", list->entries[s->pick.channel[c]].name.str);
-    exr_finish(&s->exr);
-    s->exr = NULL;
-    weft_status status = find_again(s, o, wanted, err);
-    return status ? status : read_whole(s, o, err);
-}
-
 static weft_status read_subsampled(wf_subframe *s, const wf_source_options *o,
                                    weft_error *err) {
     weft_status status = make_whole(s, o, err);
@@ -160,13 +125,11 @@ static weft_status read_subsampled(wf_subframe *s, const wf_source_options *o,
     return status;
 }
 
-/* What the header says stands; only pixels that cannot be read by chunks are read at once. */
 static weft_status open_exr(wf_subframe *s, const wf_source_options *o, int part,
                             weft_error *err) {
-    wf_exr_pixels pixels;
-    weft_status status = wf_exr_open(s, o, part, &pixels, err);
-    if (status || pixels == WF_EXR_CHUNKS) return status;
-    return pixels == WF_EXR_SUBSAMPLED ? read_subsampled(s, o, err) : read_by_module(s, o, err);
+    bool by_chunks;
+    weft_status status = wf_exr_open(s, o, part, &by_chunks, err);
+    return status || by_chunks ? status : read_subsampled(s, o, err);
 }
 
 /* ---- Opening ---- */

@@ -45,7 +45,7 @@ typedef struct wf_source_counts {
 
 /* Opens path (part as in wf_subframe_ref) and checks everything that can be checked without
  * decoding pixels: channels, windows, sizes against max_memory_bytes, compression. EXR goes
- * through OpenEXRCore; DWAA, DWAB and every other format through the OpenImageIO module. */
+ * through OpenEXRCore; every other format through the OpenImageIO module. */
 weft_status wf_subframe_open(const char *path, int part, const wf_source_options *options,
                              wf_subframe **out, weft_error *err);
 void wf_subframe_close(wf_subframe *subframe); /* NULL is fine */

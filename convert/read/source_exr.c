@@ -362,27 +362,12 @@ static weft_status read_header(wf_subframe *s, const wf_source_options *o, int p
     return status;
 }
 
-static wf_exr_pixels pixels_of(const wf_subframe *s) {
-    const wf_exr_layout *l = &s->layout;
-    bool whole = l->subsampled || s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA;
-    bool dwa = l->compression == EXR_COMPRESSION_DWAA || l->compression == EXR_COMPRESSION_DWAB;
-    return dwa ? WF_EXR_BY_MODULE : whole ? WF_EXR_SUBSAMPLED : WF_EXR_CHUNKS;
-}
-
-weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part,
-                        wf_exr_pixels *pixels, weft_error *err) {
+weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part, bool *by_chunks,
+                        weft_error *err) {
     weft_status status = start_reading(s, err);
     s->opened = true;
     if (!status) status = read_header(s, o, part, err);
-    *pixels = pixels_of(s);
-    bool chroma = s->layout.subsampled || s->pick.kind == WF_PICTURE_LUMINANCE_CHROMA;
-    if (!status && chroma && *pixels == WF_EXR_BY_MODULE)
-        return wf_fail(
-            err, WEFT_FAILED,
-            "%s: it has subsampled channels or chroma under DWA compression, which weft does "
-            "not read; write it with ZIP, or make one that is read with 'exr2aces IN OUT.exr' "
-            "of the package openexr, which keeps its colors",
-            s->path);
+    *by_chunks = !s->layout.subsampled && s->pick.kind != WF_PICTURE_LUMINANCE_CHROMA;
     return status;
 }
 

@@ -5,17 +5,11 @@
 
 /* Opening EXR files, and what their headers say. */
 
-/* How the pixels of an EXR have to be read. */
-typedef enum wf_exr_pixels {
-    WF_EXR_CHUNKS,     /* as rows are asked for */
-    WF_EXR_SUBSAMPLED, /* whole, by wf_exr_read_subsampled */
-    WF_EXR_BY_MODULE   /* whole, by OpenImageIO: DWAA, DWAB */
-} wf_exr_pixels;
-
-/* Opens the EXR at subframe->path: with success everything but the pixels is known. Whatever
- * the status, wf_subframe_close releases. */
+/* Opens the EXR at subframe->path: with success everything but the pixels is known. *by_chunks:
+ * these can be read as rows are asked for; else whole, by wf_exr_read_subsampled. Whatever the
+ * status, wf_subframe_close releases. */
 weft_status wf_exr_open(wf_subframe *subframe, const wf_source_options *options, int part,
-                        wf_exr_pixels *pixels, weft_error *err);
+                        bool *by_chunks, weft_error *err);
 
 /* Reads the picture of an open EXR, some of whose channels have not a sample for every pixel,
  * into planes [channels][height][width]: floats, R G B[, A]. Luminance and chroma become R G B

@@ -18,6 +18,7 @@ void wf_exr_decoder_free(wf_exr_decoder *decoder) {
     if (decoder->inflate) libdeflate_free_decompressor(decoder->inflate);
     free(decoder->codes);
     free(decoder->table);
+    free(decoder->linear);
     free(decoder->inflated);
     free(decoder->words);
 }
@@ -33,6 +34,8 @@ wf_exr_decode_fn *wf_exr_decode_of(exr_compression_t compression) {
         [EXR_COMPRESSION_ZIP] = wf_exr_decode_zip,
         [EXR_COMPRESSION_PIZ] = wf_exr_decode_piz,
         [EXR_COMPRESSION_PXR24] = wf_exr_decode_pxr24,
+        [EXR_COMPRESSION_DWAA] = wf_exr_decode_dwa,
+        [EXR_COMPRESSION_DWAB] = wf_exr_decode_dwa,
     };
     size_t index = (size_t)compression;
     return index < sizeof functions / sizeof *functions ? functions[index] : NULL;

@@ -20,7 +20,8 @@ typedef struct wf_exr_decoder {
     const wf_wavelet_ops *wavelet;
     struct libdeflate_decompressor *inflate;
     wf_huffman_codes *codes; /* NULL until they are needed */
-    uint16_t *table;         /* [65536], as codes */
+    uint16_t *table;         /* [65536], PIZ's values, as codes */
+    uint16_t *linear;        /* [65536], of wf_dwa_make_linear, as codes */
     uint8_t *inflated;
     size_t inflated_capacity;
     uint16_t *words;
@@ -43,7 +44,8 @@ typedef weft_status wf_exr_decode_fn(wf_exr_decoder *decoder, const wf_exr_shape
  * compressed. */
 wf_exr_decode_fn *wf_exr_decode_of(exr_compression_t compression);
 
-wf_exr_decode_fn wf_exr_decode_rle, wf_exr_decode_zip, wf_exr_decode_piz, wf_exr_decode_pxr24;
+wf_exr_decode_fn wf_exr_decode_rle, wf_exr_decode_zip, wf_exr_decode_piz, wf_exr_decode_pxr24,
+    wf_exr_decode_dwa;
 
 weft_status wf_exr_no_memory(weft_error *err);
 

@@ -1,4 +1,4 @@
-/* Chunks of EXR decoded by weft itself, held to OpenEXRCore's reading of the same bytes: every
+/* Chunks of EXR decoded by weft itself, held to the library's reading of the same bytes: every
  * compression, type of sample, shape of chunk and kind of content. */
 #include <math.h>
 #include <setjmp.h>
@@ -9,8 +9,10 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <libdeflate.h>
 
 #include "convert/read/exr/decode.h"
+#include "convert/read/exr/half.h"
 #include "tests/unit/support/exr_write.h"
 #include "tests/unit/support/sizes.h"
 
@@ -248,6 +250,37 @@ static void every_compression_is_as_the_library_has_it(void **state) {
 
 /* ---- Files of the other writer ---- */
 
+static char folder[64]; /* that they are made in */
+
+static int make_folder(void **state) {
+    (void)state;
+    strcpy(folder, "/tmp/weft-chunks-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state) {
+    char command[128];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void oiiotool(const char *arguments) {
+    char command[1024];
+    if (system("command -v oiiotool >/dev/null")) {
+        print_message("skipped: no oiiotool\n");
+        skip();
+    }
+    snprintf(command, sizeof command, "cd %s && oiiotool %s >log 2>&1", folder, arguments);
+    if (system(command)) fail_msg("oiiotool %s", arguments);
+}
+
+static const char *at(const char *name) {
+    static char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
 static void other_files_are_as_the_library_has_them(void **state) {
     static const char *const made[] = {
         "-d half --compression piz -o a.exr",
@@ -259,31 +292,250 @@ static void other_files_are_as_the_library_has_them(void **state) {
         "-d half --compression rle --tile 24 32 -o a.exr",
         "-d float --compression pxr24 -o a.exr",
     };
-    char folder[] = "/tmp/weft-chunks-XXXXXX", command[512];
     (void)state;
-    if (system("command -v oiiotool >/dev/null")) {
-        print_message("skipped: no oiiotool\n");
-        skip();
-    }
-    assert_non_null(mkdtemp(folder));
     for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
-        snprintf(
-            command, sizeof command,
-            "cd %s && oiiotool --pattern fill:topleft=1,0,0:topright=0,2,0:bottomleft=0,0,.5 "
-            "201x131 3 --noise:type=salt:value=1:portion=.03 %s",
-            folder, made[i]);
-        assert_int_equal(system(command), 0);
-        snprintf(command, sizeof command, "%s/a.exr", folder);
-        assert_true(compare_file(command) > 0);
-        unlink(command);
+        char arguments[512];
+        snprintf(arguments, sizeof arguments,
+                 "--pattern fill:topleft=1,0,0:topright=0,2,0:bottomleft=0,0,.5 201x131 3 "
+                 "--noise:type=salt:value=1:portion=.03 %s",
+                 made[i]);
+        oiiotool(arguments);
+        assert_true(compare_file(at("a.exr")) > 0);
     }
-    rmdir(folder);
+}
+
+/* ---- DWA, which OpenEXRCore 3.1 does not read ---- */
+
+/* The same picture twice, as DWA and as the library's reading of that, not compressed. */
+typedef struct pair {
+    exr_context_t dwa, plain;
+    wf_exr_decoder own;
+    int chunks;
+} pair;
+
+static exr_context_t open_quietly(const char *path) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_t exr = NULL;
+    how.error_handler_fn = hush;
+    assert_int_equal(exr_start_read(&exr, path, &how), 0);
+    return exr;
+}
+
+static wf_exr_shape whole_shape(exr_context_t exr, const exr_chunk_info_t *chunk,
+                                wf_exr_channel *channel) {
+    const exr_attr_chlist_t *list = NULL;
+    exr_get_channels(exr, 0, &list);
+    wf_exr_shape shape = {channel, list->num_channels, chunk->start_y, chunk->height, 0};
+    for (int c = 0; c < list->num_channels; c++) {
+        const exr_attr_chlist_entry_t *from = &list->entries[c];
+        size_t bytes = from->pixel_type == EXR_PIXEL_HALF ? 2 : 4, width = (size_t)chunk->width,
+               lines = (size_t)chunk->height;
+        channel[c] = (wf_exr_channel){.name = from->name.str,
+                                      .type = (wf_exr_type)from->pixel_type,
+                                      .bytes = bytes,
+                                      .across = 1,
+                                      .down = 1,
+                                      .linear = from->p_linear,
+                                      .width = width,
+                                      .lines = lines,
+                                      .line_bytes = width * bytes,
+                                      .plane_bytes = width * lines * bytes};
+        shape.bytes += channel[c].plane_bytes;
+    }
+    return shape;
+}
+
+static uint8_t *read_samples(pair *p, const exr_chunk_info_t *chunk) {
+    wf_exr_channel channel[16];
+    weft_error err = {""};
+    wf_exr_shape shape = whole_shape(p->dwa, chunk, channel);
+    uint8_t *packed = malloc(chunk->packed_size), *out = malloc(shape.bytes);
+    assert_int_equal(exr_read_chunk(p->dwa, 0, chunk, packed), 0);
+    if (chunk->packed_size == shape.bytes)
+        memcpy(out, packed, shape.bytes);
+    else if (wf_exr_decode_dwa(&p->own, &shape, packed, chunk->packed_size, out, &err))
+        fail_msg("%s", err.text);
+    else
+        p->chunks++;
+    free(packed);
+    return out;
+}
+
+static void compare_dwa_lines(pair *p) {
+    exr_attr_box2i_t data;
+    exr_chunk_info_t chunk, line;
+    int lines;
+    exr_get_data_window(p->dwa, 0, &data);
+    exr_get_scanlines_per_chunk(p->dwa, 0, &lines);
+    for (int y = data.min.y; y <= data.max.y; y += lines) {
+        assert_int_equal(exr_read_scanline_chunk_info(p->dwa, 0, y, &chunk), 0);
+        uint8_t *out = read_samples(p, &chunk), *at_line = out;
+        for (int i = 0; i < chunk.height; i++) {
+            assert_int_equal(exr_read_scanline_chunk_info(p->plain, 0, y + i, &line), 0);
+            uint8_t *plain = malloc(line.packed_size);
+            assert_int_equal(exr_read_chunk(p->plain, 0, &line, plain), 0);
+            assert_memory_equal(at_line, plain, line.packed_size);
+            at_line += line.packed_size;
+            free(plain);
+        }
+        free(out);
+    }
+}
+
+static void compare_dwa_tiles(pair *p) {
+    int tile_width, tile_height;
+    exr_attr_box2i_t data;
+    exr_chunk_info_t tile, same;
+    exr_get_data_window(p->dwa, 0, &data);
+    exr_get_tile_sizes(p->dwa, 0, 0, 0, &tile_width, &tile_height);
+    for (int j = 0; j <= (data.max.y - data.min.y) / tile_height; j++)
+        for (int i = 0; i <= (data.max.x - data.min.x) / tile_width; i++) {
+            assert_int_equal(exr_read_tile_chunk_info(p->dwa, 0, i, j, 0, 0, &tile), 0);
+            assert_int_equal(exr_read_tile_chunk_info(p->plain, 0, i, j, 0, 0, &same), 0);
+            uint8_t *out = read_samples(p, &tile), *plain = malloc(same.packed_size);
+            assert_int_equal(exr_read_chunk(p->plain, 0, &same, plain), 0);
+            assert_memory_equal(out, plain, same.packed_size);
+            free(out), free(plain);
+        }
+}
+
+/* Returns how many chunks were not stored as they are. */
+static int compare_dwa(void) {
+    pair p = {.dwa = open_quietly(at("dwa.exr")), .plain = open_quietly(at("plain.exr"))};
+    exr_storage_t storage;
+    assert_true(wf_exr_decoder_init(&p.own));
+    exr_get_storage(p.dwa, 0, &storage);
+    if (storage == EXR_STORAGE_TILED)
+        compare_dwa_tiles(&p);
+    else
+        compare_dwa_lines(&p);
+    exr_finish(&p.dwa), exr_finish(&p.plain);
+    wf_exr_decoder_free(&p.own);
+    return p.chunks;
+}
+
+static const char *const dwa_kinds[] = {
+    "--compression dwaa",
+    "--compression dwab",
+    "--compression dwaa:0",
+    "--compression dwaa:2000",
+    "--compression dwab --tile 40 24",
+    "--compression dwaa -d float",
+    "--compression dwab --origin -17-300",
+    "--compression dwaa --attrib openexr:lineOrder decreasingY",
+    "--compression dwaa --chnames Albedo.R,Albedo.G,Albedo.B,A,B,G,R,Z",
+    "--compression dwab --chnames R,G,B,u.R,u.G,u.B,id.A,Y",
+    "--compression dwaa --chnames left.Y,BY,RY,R,G,alpha,z.z,n.X",
+    "--compression dwaa -d half -d Z=float -d u.B=float --chnames R,G,B,u.R,u.G,u.B,A,Z",
+};
+
+/* Eight channels, which the writer gets from a file of our own; contents and sizes take turns.
+ */
+static void dwa_is_as_the_library_has_it(void **state) {
+    static const wf_box sizes[] = {
+        {0, 0, 100, 75}, {3, -5, 12, 300}, {0, 0, 65, 9}, {0, 0, 1, 1}, {-70, 0, 80, 33}};
+    const size_t kinds = sizeof dwa_kinds / sizeof *dwa_kinds;
+    int compared = 0;
+    (void)state;
+    for (size_t i = 0; i < 2 * kinds; i += (size_t)test_step(5)) {
+        exr_part part = {.display = {0, 0, 90, 300},
+                         .data = sizes[i % 5],
+                         .channels = "a b c d e f g h",
+                         .type = EXR_PIXEL_FLOAT,
+                         .compression = EXR_COMPRESSION_NONE,
+                         .value = contents[(i + 1 + i / kinds) % 6]};
+        const char *kind = dwa_kinds[i % kinds];
+        bool named = strstr(kind, "chnames") || strstr(kind, "float");
+        char arguments[256];
+        assert_true(exr_write(at("in.exr"), &part, 1));
+        snprintf(arguments, sizeof arguments, "in.exr %s %s -o dwa.exr",
+                 named ? "" : "-d half --ch R=a,G=b,B=c,A=d", kind);
+        oiiotool(arguments);
+        oiiotool("dwa.exr --compression none -o plain.exr");
+        compared += compare_dwa();
+    }
+    assert_true(compared > 10);
+}
+
+/* ---- Chroma under DWA, which no writer here makes ---- */
+
+static void put_number(uint8_t *to, uint64_t value) {
+    for (int i = 0; i < 8; i++) to[i] = (uint8_t)(value >> 8 * i);
+}
+
+/* Deflates words, of which the first coefficients are split and differenced as ZIP's are. */
+static size_t deflate(uint8_t *to, const uint16_t *word, size_t count, bool differences) {
+    uint8_t apart[256], plain[256];
+    memcpy(plain, word, 2 * count);
+    for (size_t i = 0; differences && i < 2 * count; i++)
+        apart[i % 2 ? count + i / 2 : i / 2] = plain[i];
+    for (size_t i = 2 * count; differences && --i > 0;)
+        apart[i] = (uint8_t)(apart[i] - apart[i - 1] + 128);
+    struct libdeflate_compressor *c = libdeflate_alloc_compressor(6);
+    size_t size = libdeflate_zlib_compress(c, differences ? apart : plain, 2 * count, to, 512);
+    libdeflate_free_compressor(c);
+    return size;
+}
+
+/* 32x16 pixels of Y, 8 blocks, and chroma for every second, 2 blocks each, all of them even:
+ * the first coefficient is eight times what was rounded, and no other is there. */
+static size_t even_chunk(uint8_t *to) {
+    static const uint8_t rules[] = {16, 0, 'Y', 0, 4, 1, 'B', 'Y', 0, 4, 1, 'R', 'Y', 0, 4, 1};
+    uint16_t ac[12], dc[12];
+    for (int i = 0; i < 12; i++) ac[i] = 0xff00;
+    for (int i = 0; i < 12; i++) dc[i] = i < 2 ? 0x4000 : i < 4 ? 0xbc00 : 0x4400; /* 2 -1 4 */
+    uint8_t *next = to + 88;
+    memset(to, 0, 88);
+    memcpy(next, rules, sizeof rules);
+    to[88] = sizeof rules;
+    next += sizeof rules;
+    size_t first = deflate(next, ac, 12, false);
+    size_t second = deflate(next + first, dc, 12, true);
+    put_number(to, 2);
+    put_number(to + 8 * 3, first), put_number(to + 8 * 4, second);
+    put_number(to + 8 * 8, 12), put_number(to + 8 * 9, 12), put_number(to + 8 * 10, 1);
+    return (size_t)(next - to) + first + second;
+}
+
+static void even_chroma_under_dwa(void **state) {
+    static const float light[3] = {0.25f, -0.125f, 0.5f};
+    wf_exr_channel c[3] = {{.name = "BY", .across = 2, .down = 2, .width = 16, .lines = 8},
+                           {.name = "RY", .across = 2, .down = 2, .width = 16, .lines = 8},
+                           {.name = "Y", .across = 1, .down = 1, .width = 32, .lines = 16}};
+    wf_exr_shape shape = {c, 3, -4, 16, 0};
+    wf_exr_decoder own;
+    uint8_t packed[1024];
+    uint16_t out[768];
+    weft_error err = {""};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        c[i].type = WF_EXR_HALF, c[i].bytes = 2;
+        c[i].line_bytes = 2 * c[i].width, c[i].plane_bytes = c[i].line_bytes * c[i].lines;
+        shape.bytes += c[i].plane_bytes;
+    }
+    size_t size = even_chunk(packed), at = 0;
+    assert_true(wf_exr_decoder_init(&own));
+    if (wf_exr_decode_dwa(&own, &shape, packed, size, (uint8_t *)out, &err))
+        fail_msg("%s", err.text);
+    for (int y = 0; y < 16; y++)
+        for (int i = y % 2 ? 2 : 0; i < 3; i++)
+            for (size_t x = 0; x < c[i].width; x++) {
+                float expected = copysignf(powf(fabsf(light[i]), 2.2f), light[i]);
+                assert_int_equal(out[at++], wf_half_of_float(expected));
+            }
+    assert_int_equal(2 * at, shape.bytes);
+    for (size_t cut = 0; cut < size; cut++) /* and no part of it is taken for the whole */
+        assert_int_equal(wf_exr_decode_dwa(&own, &shape, packed, cut, (uint8_t *)out, &err),
+                         WEFT_FAILED);
+    wf_exr_decoder_free(&own);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_compression_is_as_the_library_has_it),
         cmocka_unit_test(other_files_are_as_the_library_has_them),
+        cmocka_unit_test(dwa_is_as_the_library_has_it),
+        cmocka_unit_test(even_chroma_under_dwa),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

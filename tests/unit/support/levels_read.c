@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/read/exr/dct.h"
+#include "convert/read/exr/half.h"
 #include "convert/read/exr/huffman.h"
 #include "convert/read/exr/unzip.h"
 #include "convert/read/exr/wavelet.h"
@@ -220,10 +222,94 @@ static void wavelet_look_up(level_run *r) {
     level_keep_codes(r, to, r->count);
 }
 
-static const level_row rows[] = {
+static const level_row unzip_rows[] = {
     {"unzip.merge", merge, true, 0},
     {"unzip.odd_halves", odd_halves, true, 0},
     {"unzip.odd_floats", odd_floats, true, 0},
+};
+
+/* ---- Blocks of DWA ---- */
+
+/* By the definition of the transform: a sum over all coefficients of products of cosines. */
+static void inverse_plainly(const double *c, float *sample) {
+    for (int i = 0; i < 64; i++) {
+        double sum = 0;
+        for (int k = 0; k < 64; k++) {
+            double scale = (k % 8 ? 1 : sqrt(0.5)) * (k / 8 ? 1 : sqrt(0.5)) / 4;
+            sum += scale * c[k] * cos((2 * (i % 8) + 1) * (k % 8) * M_PI / 16) *
+                   cos((2 * (i / 8) + 1) * (k / 8) * M_PI / 16);
+        }
+        sample[i] = (float)sum;
+    }
+}
+
+static void dct_inverse(level_run *r) {
+    int rows = 1 + (int)(level_draw(r) % 8);
+    uint16_t *coefficient = level_halves(r, 64);
+    double exact[64];
+    float *sample = level_floats(r, 64);
+    for (int i = 0; i < 64; i++) {
+        uint16_t finite =
+            (coefficient[i] & 0x7c00) >= 0x4c00 ? coefficient[i] & 0xbfff : coefficient[i];
+        coefficient[i] = i < 8 * rows ? finite : 0;
+        exact[i] = (double)wf_float_of_half(coefficient[i]);
+    }
+    if (r->plain)
+        inverse_plainly(exact, sample);
+    else
+        wf_dct_ops_at(r->level)->inverse(coefficient, rows, sample);
+    level_keep_floats(r, sample, 64);
+}
+
+static void dct_rgb(level_run *r) {
+    float *ycc[3];
+    for (int c = 0; c < 3; c++) ycc[c] = level_floats(r, 64);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 64; i++)
+            ycc[c][i] = fabsf(ycc[c][i]) < 1e4f ? ycc[c][i] : (float)i; /* NaN too */
+    if (!r->plain) wf_dct_ops_at(r->level)->rgb(ycc[0], ycc[1], ycc[2]);
+    for (int i = 0; r->plain && i < 64; i++) {
+        double y = (double)ycc[0][i], blue = (double)ycc[1][i], red = (double)ycc[2][i];
+        ycc[0][i] = (float)(y + 1.5747 * red);
+        ycc[1][i] = (float)(y - 0.1873 * blue - 0.4682 * red);
+        ycc[2][i] = (float)(y + 1.8556 * blue);
+    }
+    for (int c = 0; c < 3; c++) level_keep_floats(r, ycc[c], 64);
+}
+
+/* The half that is nearest, found among all; of two the even one. */
+static uint16_t nearest_half(float value) {
+    uint16_t low = 0, high = 0x7c00, sign = signbit(value) ? 0x8000 : 0;
+    double size = fabs((double)value);
+    if (isnan(value)) return wf_half_of_float(value);
+    while (high - low > 1) {
+        uint16_t middle = (uint16_t)((low + high) / 2);
+        if ((double)wf_float_of_half(middle) <= size)
+            low = middle;
+        else
+            high = middle;
+    }
+    double below = (double)wf_float_of_half(low), above = (double)wf_float_of_half(high);
+    if (high == 0x7c00) above = 65536;
+    bool up = size - below > above - size || (size - below >= above - size && low % 2);
+    return sign | (up ? high : low);
+}
+
+static void dct_halves(level_run *r) {
+    float *from = level_floats(r, 64);
+    uint16_t *to = level_halves(r, 64);
+    for (int i = 0; i < 64; i += 3) from[i] *= (float)exp2(floor(level_uniform(r, -26, 15)));
+    for (int i = 1; i < 64; i += 3) /* between two halves */
+        from[i] = (float)(2049 + 2 * (int)(level_draw(r) % 1000)) * 0x1p-26f;
+    if (!r->plain) wf_dct_ops_at(r->level)->halves(to, from);
+    for (int i = 0; r->plain && i < 64; i++) to[i] = nearest_half(from[i]);
+    level_keep_codes(r, to, 64);
+}
+
+static const level_row dct_rows[] = {
+    {"dct.inverse", dct_inverse, true, 1e-5},
+    {"dct.rgb", dct_rgb, true, 2e-7},
+    {"dct.halves", dct_halves, true, 0},
 };
 
 static const level_row huffman_rows[] = {
@@ -237,7 +323,8 @@ static const level_row wavelet_rows[] = {
 };
 
 const level_table level_read[] = {
-    LEVEL_TABLE("convert/read/exr/unzip_isa.c", wf_unzip_ops, rows),
+    LEVEL_TABLE("convert/read/exr/unzip_isa.c", wf_unzip_ops, unzip_rows),
+    LEVEL_TABLE("convert/read/exr/dct_isa.c", wf_dct_ops, dct_rows),
     LEVEL_TABLE("convert/read/exr/huffman_isa.c", wf_huffman_ops, huffman_rows),
     LEVEL_TABLE("convert/read/exr/wavelet_isa.c", wf_wavelet_ops, wavelet_rows),
     {.file = NULL},

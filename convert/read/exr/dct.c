@@ -1,0 +1,4 @@
+/* Which of the loops over blocks is used. */
+#include "convert/read/exr/dct.h"
+
+WF_ISA_DISPATCH(wf_dct_ops)
