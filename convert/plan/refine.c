@@ -62,7 +62,7 @@ static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
             "which may be empty",
             folder, strerror(errno));
     for (const struct dirent *entry; (entry = readdir(directory));)
-        if (entry->d_name[0] != '.') *empty = false;
+        if (entry->d_name[0] != '.' && entry->d_type != DT_DIR) *empty = false;
     closedir(directory);
     return WEFT_OK;
 }
