@@ -44,6 +44,13 @@ for said in cICP:09100001 cICP:01010000 gAMA:000186a0 sRGB:00; do
     check "of a picture" exits 0 weft convert said.png $box --frames 0 --subframe-rate 25 -o p.y4m
     check "is the same" eval 'cmp <(head -c 8000 o.y4m | tail -c 7000) <(head -c 8000 p.y4m | tail -c 7000)'
 done
+# Threads of libav's decoder would wait for each other at pictures that cannot be decoded.
+quiet_ffmpeg -f lavfi -i testsrc2=s=64x32:r=50:d=0.5 -pix_fmt rgb24 long.apng
+for place in 3 5 7; do
+    cp long.apng bad.apng
+    head -c 64 /dev/zero | dd of=bad.apng bs=1 seek=$(($(stat -c %s bad.apng) * place / 9)) conv=notrunc 2>dd.said
+    check "damaged at $place ninths" eval 'timeout 100 "$WEFT" convert bad.apng $box -o o.y4m 2>said; [ $? -lt 2 ]'
+done
 animated 0x808080 deep.apng -vf format=rgb24,format=rgb48be
 check "16 bits" exits 0 weft convert deep.apng $box -o o.y4m
 check "are the same" first_code o.y4m 526 12

@@ -101,8 +101,10 @@ static weft_status open_decoder(wf_video *v, weft_error *err) {
     int code = avcodec_parameters_to_context(r->codec, par);
     r->codec->opaque = r;
     r->codec->thread_count = 0; /* one a core */
-    /* Pictures decoded at once are lost together, as many as there are threads. */
-    if (v->options.mends) r->codec->thread_type = FF_THREAD_SLICE;
+    /* Pictures decoded at once are lost together, as many as there are threads; and those of a
+     * damaged APNG wait for each other without end. */
+    if (v->options.mends || par->codec_id == AV_CODEC_ID_APNG)
+        r->codec->thread_type = FF_THREAD_SLICE;
     r->codec->err_recognition = AV_EF_CRCCHECK;
     /* What ends early is concealed without a word. Other decoders of FFmpeg 5.1 hear no more by
      * that, or abort the program where they are told to stop at errors (MPEG-4). */

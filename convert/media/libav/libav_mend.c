@@ -7,7 +7,7 @@
 
 #include "convert/media/libav/libav_reading.h"
 
-/* A decoder that fails so often after its last packet does not come to its end. */
+/* A decoder that fails so often without another packet does not come to its end. */
 #define MOST_FAILURES 1000
 /* Pictures that may be lost at one place. */
 #define MOST_LOST INT64_C(10000000)
@@ -80,6 +80,7 @@ static bool is_whole(wf_video *v, weft_error *why) {
 static weft_status find_frame(wf_video *v, weft_error *err) {
     wf_libav_reading *r = v->state;
     for (int failures = 0; failures < MOST_FAILURES;) {
+        int64_t packets = r->packets;
         weft_error why = {""};
         weft_status status = wf_libav_decode(v, &why);
         if (status == WEFT_NO_MEMORY) return wf_fail(err, status, "%s", why.text);
@@ -88,7 +89,7 @@ static weft_status find_frame(wf_video *v, weft_error *err) {
         if (status) lose(v, r->packets, &why);
         if (r->have) av_frame_unref(r->frame);
         r->have = false;
-        failures += r->drained;
+        failures = r->packets > packets ? 0 : failures + 1;
     }
     return WEFT_OK;
 }
