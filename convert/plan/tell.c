@@ -37,10 +37,18 @@ static void put_convert(const wf_plan *plan, FILE *to) {
 static void put_head(const wf_plan *plan, FILE *to) {
     char rate[48];
     int64_t all = plan->count ? wf_plan_last(plan) - plan->subframe[0].number + 1 : 0;
-    fprintf(to,
-            "%s, frames %s: %zu subframes of the %" PRId64 " that there are at %s a second\n",
-            plan->job.raster.name, plan->job.frames, plan->count, all,
-            wf_rate_text(plan->rate, rate));
+    const char *name = plan->job.raster.name, *frames = plan->job.frames;
+    wf_rate_text(plan->rate, rate);
+    if (!plan->job.refine)
+        fprintf(to,
+                "%s, frames %s: %zu subframes of the %" PRId64
+                " that there are at %s a second\n",
+                name, frames, plan->count, all, rate);
+    else if (plan->count)
+        fprintf(to, "%s, frames %s: %zu subframes, or parts of them, are still wanted\n", name,
+                frames, plan->count);
+    else
+        fprintf(to, "%s, frames %s: nothing more is wanted\n", name, frames);
     fprintf(to, "size: %dx%d, pixel aspect %" PRId64 ":%" PRId64 "\n", plan->width_px,
             plan->lines, plan->pixel_aspect.num, plan->pixel_aspect.den);
     fprintf(to, "region: apertures reach %d,%d to %d,%d\n", plan->reach.x0, plan->reach.y0,
@@ -55,7 +63,7 @@ static void put_head(const wf_plan *plan, FILE *to) {
 static void put_text(const wf_plan *plan, FILE *to) {
     char time[48], frame[48];
     put_head(plan, to);
-    if (plan->count) put_convert(plan, to);
+    if (plan->count && !plan->job.refine) put_convert(plan, to);
     for (size_t i = 0; i < plan->count; i++) {
         const wf_plan_subframe *s = &plan->subframe[i];
         wf_rational in_frames = wf_plan_frame(plan, s->number);

@@ -1,6 +1,6 @@
 """Refines a scene by plans until nothing is wanted, and prints what came of it as JSON.
 
-refine.py WEFT SCENE EXAMPLES RASTER TAU ERROR LAST: frames 0 to LAST. What a plan asks for is taken from
+refine.py WEFT SCENE EXAMPLES RASTER TAU ERROR LAST [TRACE OPTION..]: frames 0 to LAST. What a plan asks for is taken from
 subframes that `weft trace` has made of all times; beside its region a file is spoiled, so that whoever
 looks there is found out.
 """
@@ -57,7 +57,7 @@ def luma(path):
 
 def trace(times, name):
     run("trace", scene, "--raster", raster, "--oversample", f"1x1x{times}", "--frames", f"0-{last + 1}",
-        "-o", f"{name}.####.exr", "-q")
+        "-o", f"{name}.####.exr", "-q", *sys.argv[8:])
 
 
 looks = ["--raster", raster, "--temporal-width", tau, "--aperture", "line"]

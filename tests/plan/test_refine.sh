@@ -25,6 +25,9 @@ check "at six tenths of the cost" value "d['share'] <= 0.6"
 if is_long; then
     check "a whole field's width, and coarse" refined wheel.lua 1 0.02 1
     check "99 % of its pixels are too" value "d['within'] >= 0.99"
+    # It turns once a field, and looks the same at every field's instant.
+    check "a wheel that seems to stand still" refined wheel.lua 1/2 0.005 2 --set rpm=3600 --set speed=0 --set beats=0.001
+    check "is seen to turn" value "d['within'] >= 0.99 and d['some'] <= 1.02 * d['all'] + 1e-5"
 fi
 
 
@@ -51,5 +54,7 @@ check "the first pass, half done" exits 0 plan half --error 0.01 --format json
 check "wants the other half" value "[s['number'] for s in d['subframes'] if s['region'] == [0, 0, 96, 64]] == [8, 16, 24, 27]"
 check "all of it" exits 0 plan other --error 0.01 --format json
 check "wants nothing" value "d['subframes'] == []"
+check "and says so" exits 0 plan other --error 0.01
+check "to people" prints "nothing more is wanted"
 
 finish
