@@ -199,6 +199,40 @@ def subframes(bench):
                      note=found and f"{found / whole:.2f} x what it takes")
 
 
+def cpu_seconds(way):
+    """What the processor gives children of this process while `way` runs."""
+    before = os.times()
+    way()
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def compressions(bench):
+    """48 noisy subframes, so that no chunk repeats, in the compressions of other renderers."""
+    asked = {"piz": 2, "dwaa": 4, "dwab": 4, "zips": 3, "zip": 3, "pxr24": 3, "rle": 2}
+    ready = len(bench.wheel) >= 48 and shutil.which("oiiotool") and shutil.which("ffmpeg")
+    for how, least in asked.items():
+        times = {"weft": [], "ffmpeg": []}
+        if ready:
+            folder = bench.path(how)
+            os.makedirs(folder)
+            files = [os.path.join(folder, f"{n:04}.exr") for n in range(48)]
+            for n, name in enumerate(files):
+                subprocess.run(["oiiotool", bench.wheel[n], f"--noise:type=gaussian:stddev=.03:seed={n}",
+                                "--clamp:min=0", "-d", "half", "--compression", how, "-o", name], check=True)
+            for _ in range(bench.rounds):
+                times["weft"].append(cpu_seconds(
+                    lambda: bench.weft("convert", *files, "--subframe-rate", "480000/1001", "--temporal-width", "1",
+                                       "--raster", "525i", "-o", bench.path("a.y4m"))))
+                times["ffmpeg"].append(cpu_seconds(lambda: ffmpeg_way(bench, files)))
+            shutil.rmtree(folder)
+        weft, ffmpeg = (median(times[name]) if ready else None for name in ("weft", "ffmpeg"))
+        bench.target(f"48 noisy subframes of {how.upper()}, beside ffmpeg", ffmpeg / weft if ready else None,
+                     least=least, unit="x faster",
+                     note=f"{weft:.2f} and {ffmpeg:.2f} s of the processor" if ready
+                     else "wants wheel/, oiiotool, ffmpeg")
+
+
 def stages(bench):
     """What filters and colors alone take, beside zimg."""
     add = {line.split()[0]: float(line.split("add")[1].split()[0])
@@ -285,6 +319,7 @@ def targets(bench):
     if bench.small:
         return
     subframes(bench)
+    compressions(bench)
     stages(bench)
     memory(bench)
     videos.video(bench)
