@@ -102,12 +102,27 @@ static weft_status lay_out_channels(wf_subframe *s, weft_error *err) {
     return status;
 }
 
+/* A compression that is newer than OpenEXRCore, by its number in the file: the library says in
+ * a message what that is, and goes on as if it were ZIP. */
+static weft_status refuse_compression(const wf_subframe *s, weft_error *err) {
+    unsigned number = s->unknown_compression;
+    const char *name = number == 10   ? "HTJ2K256, of OpenEXR 3.4"
+                       : number == 11 ? "HTJ2K32, of OpenEXR 3.4"
+                                      : "newer than those of OpenEXR 3.4, as Zstd is";
+    return wf_fail(
+        err, WEFT_FAILED,
+        "%s: its compression, number %u (%s), is none that weft reads; write it with "
+        "ZIP, PIZ or DWAA",
+        s->path, number, name);
+}
+
 static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
     exr_storage_t storage;
     int lines = 0;
     wf_exr_layout *l = &s->layout;
     exr_get_storage(s->exr, s->part, &storage);
     exr_get_compression(s->exr, s->part, &l->compression);
+    if (s->unknown_compression) return refuse_compression(s, err);
     if (storage == EXR_STORAGE_TILED) {
         if (exr_get_tile_sizes(s->exr, s->part, 0, 0, &l->tile_width, &l->tile_height) ||
             l->tile_width < 1 || l->tile_height < 1)
@@ -329,6 +344,9 @@ static void listen(exr_const_context_t exr, exr_result_t code, const char *messa
     (void)code;
     if (!exr || exr_get_user_data(exr, &user) || !user) return;
     wf_subframe *s = user;
+    if (!s->opened)
+        sscanf(message, "Attribute 'compression' (type 'compression'): Invalid value %u",
+               &s->unknown_compression);
     if (!s->opened) snprintf(s->trouble, sizeof s->trouble, "%s", message);
 }
 

@@ -363,15 +363,14 @@ static void luminance_and_chroma(void **state) {
     refused(path, -1, &plain, "8x8");
 }
 
-/* Bytes that are no DWA, in a file that says so; unit/read/test_exr_chunks.c reads what is. */
-static void false_chroma_under_dwa(void **state) {
-    (void)state;
+/* A PIZ file that says that it has another compression. */
+static const char *mislabeled(int compression) {
     static const float ratio[2] = {0.5f, -0.75f};
     exr_part p = part_of(64, 48);
     p.channels = "BY/2 RY/2 Y";
     p.value = luminance_chroma, p.user = ratio;
-    p.compression = EXR_COMPRESSION_PIZ; /* as many lines a chunk */
-    const char *path = temporary("dwa_chroma.exr");
+    p.compression = EXR_COMPRESSION_PIZ; /* as many lines a chunk as DWAA */
+    const char *path = temporary("mislabeled.exr");
     assert_true(exr_write(path, &p, 1));
     uint8_t bytes[4096];
     FILE *file = fopen(path, "r+b");
@@ -381,9 +380,23 @@ static void false_chroma_under_dwa(void **state) {
     const uint8_t *at = memmem(bytes, got, name, sizeof name);
     assert_non_null(at);
     assert_false(fseek(file, (long)(at - bytes) + (long)sizeof name, SEEK_SET));
-    fputc(EXR_COMPRESSION_DWAA, file);
+    fputc(compression, file);
     assert_false(fclose(file));
-    refused(path, -1, &plain, "cannot be read");
+    return path;
+}
+
+/* Bytes that are no DWA, in a file that says so; unit/read/test_exr_chunks.c reads what is. */
+static void false_chroma_under_dwa(void **state) {
+    (void)state;
+    refused(mislabeled(EXR_COMPRESSION_DWAA), -1, &plain, "cannot be read");
+}
+
+static void newer_compressions_are_named(void **state) {
+    (void)state;
+    refused(mislabeled(10), -1, &plain, "HTJ2K256, of OpenEXR 3.4");
+    refused(mislabeled(11), -1, &plain, "HTJ2K32, of OpenEXR 3.4");
+    refused(mislabeled(12), -1, &plain, "number 12");
+    refused(mislabeled(255), -1, &plain, "number 255");
 }
 
 static float spoiled_chroma(const void *user, int channel, int x, int y) {
@@ -872,6 +885,7 @@ int main(void) {
         cmocka_unit_test(subsampled_beside_the_picture),
         cmocka_unit_test(luminance_and_chroma),
         cmocka_unit_test(false_chroma_under_dwa),
+        cmocka_unit_test(newer_compressions_are_named),
         cmocka_unit_test(chroma_is_interpolated),
         cmocka_unit_test(bad_chroma_does_not_spread),
         cmocka_unit_test(luma_of_the_files_primaries),
