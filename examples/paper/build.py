@@ -15,7 +15,7 @@ from page import Report, asset
 from program import Failure, Weft
 
 EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes", "wheels", "still", "slow",
-               "notch", "color")
+               "notch", "held", "color")
 
 
 class Context:

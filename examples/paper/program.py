@@ -120,11 +120,12 @@ class Weft:
 
     def render(self, scene, raster, aperture, frames=1, bits=16, **options):
         """The path of a Y4M file. Frames: how many, or which ("6-7"). Options: tau, samples, position,
-        and values of the scene."""
+        weight and limit of flicker, and values of the scene."""
         which = frames if isinstance(frames, str) else f"0-{frames - 1}"
         words = ["render", self.scene(scene), "--raster", raster, "--aperture", aperture,
                  "--frames", which, "--bits", bits, "--chroma", "444"]
-        names = {"tau": "--temporal-width", "samples": "--samples", "position": "--shutter-position"}
+        names = {"tau": "--temporal-width", "samples": "--samples", "position": "--shutter-position",
+                 "weight": "--flicker-weight", "limit": "--flicker-limit"}
         for key, value in options.items():
             words += [names[key], value] if key in names else ["--set", f"{key}={value}"]
         return self.make(".y4m", *words)
