@@ -115,7 +115,6 @@ check "fields into DNxHR" refused "progressive" no.mov --codec dnxhr --raster 10
 check "D-10 into QuickTime" refused "goes into .mxf" no.mov --codec imx50
 check "an unknown codec" refused "did you mean prores" no.mov --codec prorez
 check "a codec and Y4M" refused "no codec" no.y4m --codec v210
-check "sound and MP4" refused "write .mov" no.mp4 --codec h264 --audio silent:2
 check "4:2:0 of lines that four does not divide" refused "--bits 10" no.mp4 --raster 360x242@25i,tff
 check "sound and Y4M" refused "no sound" no.y4m --audio silent:2
 check "three tracks of D-10" refused "4 or 8" no.mxf --codec imx50 --raster 625i --audio silent:3

@@ -12,10 +12,14 @@
 #include "convert/job/options.h"
 #include "filters/aperture/aperture.h"
 
-static bool is_option(const char *name) {
+/* The commands whose options people know by other names; `plan` has a --size of its own. */
+enum { MAKE = WF_TAKEN_BY_CONVERT | WF_TAKEN_BY_RENDER | WF_TAKEN_BY_TRACE };
+
+/* An option of any of those commands. */
+static bool is_option(const char *name, unsigned commands) {
     weft_option option;
     for (size_t i = 0; weft_option_at(i, &option); i++)
-        if (!strcmp(option.name, name)) return true;
+        if (!strcmp(option.name, name)) return wf_option_commands(i) & commands;
     return false;
 }
 
@@ -36,10 +40,11 @@ static void every_row_leads_somewhere(void **state) {
         for (const char *c = m->said; *c; c++) assert_false(isupper((unsigned char)*c));
         assert_string_equal(wf_meant_by(m->option, m->said), m->right);
         if (!*m->option) {
-            if (!is_option(m->right + 2) || is_option(m->said)) fail_msg("--%s", m->said);
+            if (!is_option(m->right + 2, MAKE) || is_option(m->said, MAKE))
+                fail_msg("--%s", m->said);
             continue;
         }
-        assert_true(is_option(m->option));
+        assert_true(is_option(m->option, MAKE));
         weft_job *job = weft_job_new();
         assert_non_null(job);
         first_word(m->right, word);

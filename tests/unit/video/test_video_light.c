@@ -88,7 +88,7 @@ static void check_depth(int bits, int full, int matrix, int transfer, int rgb) {
                           .planes = 3,
                           .across = 1,
                           .down = 1,
-                          .tags = {matrix, transfer, matrix, true, WF_SITING_LEFT}};
+                          .tags = {matrix, transfer, matrix, true, WF_SITING_LEFT, false}};
     wf_meaning meaning;
     wf_light *light = make_light(&info, &meaning);
     uint16_t code[3][WIDTH];
@@ -185,7 +185,7 @@ static void check_420(wf_siting siting, double left, double top) {
                           .planes = 3,
                           .across = 2,
                           .down = 2,
-                          .tags = {1, 8, 1, true, siting}};
+                          .tags = {1, 8, 1, true, siting, false}};
     wf_meaning meaning;
     wf_light *light = make_light(&info, &meaning);
     static uint16_t code[3][SAMPLES];
@@ -359,16 +359,15 @@ static void check_transfer(int transfer, int across, int down) {
     wf_siting last = transfer == 1 ? WF_SITING_TOP_LEFT : WF_SITING_LEFT;
     for (wf_siting siting = WF_SITING_LEFT; siting <= last; siting++)
         for (int bits = 8; bits <= 16; bits += 4)
-            worst =
-                fmax(worst,
-                     check_sampling(&(wf_video_info){.width_px = WIDE,
-                                                     .lines = HIGH,
-                                                     .layout = WF_YCBCR,
-                                                     .bits = bits,
-                                                     .planes = 3,
-                                                     .across = across,
-                                                     .down = down,
-                                                     .tags = {1, transfer, 1, true, siting}}));
+            worst = fmax(worst, check_sampling(&(wf_video_info){
+                                    .width_px = WIDE,
+                                    .lines = HIGH,
+                                    .layout = WF_YCBCR,
+                                    .bits = bits,
+                                    .planes = 3,
+                                    .across = across,
+                                    .down = down,
+                                    .tags = {1, transfer, 1, true, siting, false}}));
     print_message("transfer %d, chroma 1/%d x 1/%d: %.2g of full scale\n", transfer, across,
                   down, worst);
     assert_true(worst <= 1e-6);
@@ -399,7 +398,7 @@ static void what_is_not_said(void **state) {
         const int *t = rows[i].tags;
         wf_video_info info = {.lines = rows[i].lines,
                               .layout = WF_YCBCR,
-                              .tags = {t[0], t[1], t[2], false, WF_SITING_LEFT}};
+                              .tags = {t[0], t[1], t[2], false, WF_SITING_LEFT, false}};
         wf_meaning m;
         assert_int_equal(wf_meaning_of(&info, "x", &m, NULL), WEFT_OK);
         assert_int_equal(m.primaries, rows[i].primaries);
@@ -409,7 +408,8 @@ static void what_is_not_said(void **state) {
     }
     weft_error err;
     wf_meaning m;
-    wf_video_info odd = {.lines = 1080, .layout = WF_YCBCR, .tags = {9, 14, 10, true, 0}};
+    wf_video_info odd = {
+        .lines = 1080, .layout = WF_YCBCR, .tags = {9, 14, 10, true, 0, false}};
     assert_int_equal(wf_meaning_of(&odd, "x", &m, &err), WEFT_FAILED);
     assert_non_null(strstr(err.text, "matrix"));
 }
