@@ -349,28 +349,15 @@ static void start_timecode(wf_run *run) {
 static wf_resample_desc describe_fields(const wf_run *run, wf_rational rate) {
     const weft_job *job = run->job;
     video_source *s = run->source;
-    s->timing = (wf_timing_desc){
-        .raster = &job->raster,
-        .subframe_rate = rate,
-        .edges = s->edges,
-        .subframe_center = job->subframe_time_center,
-        .subframes = s->count < 0 ? ENDLESS_FRAMES * WF_UNITS_TOGETHER : s->count,
-        .width = wf_setup_width(job),
-        .position = job->shutter_position,
-        .skew = wf_ratio_given(job->scan_skew) ? job->scan_skew : wf_ratio(0, 1)};
+    wf_resample_desc desc = wf_describe_fields(
+        job, &s->first, rate, s->count < 0 ? ENDLESS_FRAMES * WF_UNITS_TOGETHER : s->count);
+    desc.timing.edges = s->edges;
     if (s->edges)
-        s->timing.shown =
+        desc.timing.shown =
             wf_ratio_div(s->times_s[s->count], wf_raster_field_period(&job->raster));
-    wf_resample_desc desc = {
-        .raster = &job->raster,
-        .aperture = job->aperture,
-        .timing = s->timing,
-        .channels = s->channels,
-        .floats = true,
-        .background = {job->background[0], job->background[1], job->background[2]},
-        .band_rows = 16,
-    };
-    wf_fit_picture(job, &s->first, &desc.x, &desc.y);
+    desc.channels = s->channels;
+    desc.floats = true;
+    s->timing = desc.timing;
     return desc;
 }
 

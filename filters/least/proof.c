@@ -31,11 +31,6 @@ void wf_least_judge(const wf_least *least, const wf_least_scratch *s, double *ex
 /* Of a bound that is met: larger than what the interior point leaves of one that is not. */
 #define MET 1e-6
 
-static double flicker_of(const wf_least *least, const double *x, int j) {
-    int lines = least->desc.lines, above = j ? j - 1 : 1, below = j < lines - 1 ? j + 1 : j - 1;
-    return 0.5 * x[j * WIDTH] - 0.25 * (x[above * WIDTH] + x[below * WIDTH]);
-}
-
 /* What is left of the gradient at line j; where a bound of L is met its multiplier takes it up.
  */
 static double rest_at(const wf_least *least, wf_least_scratch *s, int column, int j) {
@@ -43,7 +38,7 @@ static double rest_at(const wf_least *least, wf_least_scratch *s, int column, in
     double rest = s->l[at] - s->s[at] + s->press[at];
     for (int k = j ? j - 1 : 0; k <= j + 1 && k < lines; k++)
         rest += wf_least_b(lines, k, j) *
-                (least->desc.weight * flicker_of(least, s->l + column, k) +
+                (least->desc.weight * wf_least_flicker(least, s->l + column, k) +
                  s->tension[k * WIDTH + column]);
     bool met = fabs(s->press[at]) > MET && (s->press[at] - rest) * s->press[at] > 0;
     if (met) s->press[at] -= rest;

@@ -31,7 +31,7 @@ static double limit_at(const wf_least_scratch *s, int j, int column) {
     return s->limit[j * s->limit_step + column];
 }
 
-static double b_at(const wf_least *least, const double *x, int j) {
+double wf_least_flicker(const wf_least *least, const double *x, int j) {
     int lines = least->desc.lines, above = j ? j - 1 : 1, below = j < lines - 1 ? j + 1 : j - 1;
     return 0.5 * x[j * WIDTH] - 0.25 * (x[above * WIDTH] + x[below * WIDTH]);
 }
@@ -52,7 +52,7 @@ static void find_breaks(const wf_least *least, wf_least_scratch *s, int column) 
     const double *x = s->l + column, held = HELD * s->scale[column];
     for (int j = 0; j < least->desc.lines; j++) {
         double l = x[j * WIDTH];
-        double over = fabs(b_at(least, x, j)) - limit_at(s, j, column);
+        double over = fabs(wf_least_flicker(least, x, j)) - limit_at(s, j, column);
         over = larger(over, larger(-l, l - least->desc.most));
         if (over > held) s->breaks[j] = larger(s->breaks[j], over);
     }
@@ -191,7 +191,7 @@ static void put_start(const wf_least *least, wf_least_scratch *s, const wf_least
     mean = smaller(larger(mean, 0.05 * smaller(most, 1)), 0.95 * most);
     for (int j = g->first; j < g->end; j++) {
         double off = base[j * WIDTH] - mean;
-        double b = fabs(b_at(least, base, j));
+        double b = fabs(wf_least_flicker(least, base, j));
         if (b > 0) part = smaller(part, 0.7 * limit_at(s, j, g->column) / b);
         if (p->boxed && off < 0) part = smaller(part, 0.9 * mean / -off);
         if (p->boxed && off > 0) part = smaller(part, 0.9 * (most - mean) / off);

@@ -46,6 +46,9 @@ static inline double wf_least_b(int lines, int row, int column) {
 /* Column j + right of line j of I + weight B'B; right: 0 to 2. */
 double wf_least_entry(const wf_least_desc *desc, int j, int right);
 
+/* b at line j of a column x of the tile. (segments.c) */
+double wf_least_flicker(const wf_least *least, const double *x, int j);
+
 /* What is to be proved of the tile. (proof.c) */
 wf_least_claim wf_least_claim_of(const wf_least *least, const wf_least_scratch *scratch);
 

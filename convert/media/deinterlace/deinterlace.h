@@ -17,7 +17,7 @@ typedef struct wf_woven {
     wf_rational frame_rate;
 } wf_woven;
 
-/* wf_deinterlacer_kind, the entry point of the deinterlace module. Codes are planes Y Cb Cr or
+/* wf_deinterlacer_of, the entry point of the deinterlace module. Codes are planes Y Cb Cr or
  * R G B, [lines][width_px] of the plane. One thread at a time. */
 typedef struct wf_deinterlacer {
     /* WEFT_FAILED where libavfilter has no such filter, or no format of this kind. The state is

@@ -125,8 +125,8 @@ class Shot:
         s, (first, last) = self.settings, self.frames()
         job = {"command": "convert", "inputs": [self.folder], "output": self.output, "raster": s.raster,
                "aperture": s.aperture, "temporal-width": s.shutter, "subframe-rate": str(self.subframe_rate),
-               "frames": f"0-{(last + 1) * 2 * s.subframes - 1}", "output-frames": f"{first}-{last}", "input-par": "{}:{}".format(*plan["pixel_aspect"]),
-               "overwrite": True}
+               "frames": f"0-{(last + 1) * 2 * s.subframes - 1}", "output-frames": f"{first}-{last}",
+               "input-par": "{}:{}".format(*plan["pixel_aspect"]), "overwrite": True}
         if s.alpha:
             job["alpha-out"] = True
         if s.codec:
