@@ -25,7 +25,8 @@ static size_t read_map(value_map *map, const uint8_t *packed, size_t size) {
     if (size < 4) return 0;
     size_t first = wf_little16(packed), last = wf_little16(packed + 2);
     if (last >= MAP_BYTES) return 0;
-    size_t bytes = first <= last ? last - first + 1 : 0;
+    if (first > last) return 4; /* no value but 0 */
+    size_t bytes = last - first + 1;
     if (size < 4 + bytes) return 0;
     memcpy(map->bits + first, packed + 4, bytes);
     return 4 + bytes;

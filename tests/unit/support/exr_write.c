@@ -95,7 +95,7 @@ static uint16_t half_of(float value) {
 
 static uint8_t *put_sample(uint8_t *to, exr_pixel_type_t type, float value) {
     uint16_t half = half_of(value);
-    uint32_t whole = value > 0 ? (uint32_t)value : 0;
+    uint32_t whole = value >= 0x1p32f ? UINT32_MAX : value > 0 ? (uint32_t)value : 0;
     size_t bytes = type == EXR_PIXEL_HALF ? 2 : 4;
     memcpy(to,
            type == EXR_PIXEL_HALF   ? (const void *)&half
