@@ -8,8 +8,6 @@ needs ffmpeg
 subframes in 96
 . "$WEFT_SOURCE/tests/verify/verdicts.sh"
 
-no_cut_passes() { python3 "$WEFT_SOURCE/tests/verify/cuts.py" "$WEFT" "$@"; }
-
 check "MXF of weft's own" made own.mxf --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "QuickTime" made m.mov --codec v210 "${small[@]}" --timecode 10:00:00:00 --audio silent:2
 check "Matroska" made m.mkv --codec ffv1 "${small[@]}" --timecode 10:00:00:00 --audio silent:2

@@ -9,8 +9,6 @@ needs ffmpeg
 subframes in 96
 . "$WEFT_SOURCE/tests/verify/verdicts.sh"
 
-no_cut_passes() { python3 "$WEFT_SOURCE/tests/verify/cuts.py" "$WEFT" "$@"; }
-
 groups=(-c:v mpeg2video -g 4 -bf 2)
 quiet_ffmpeg "${input[@]}" "${groups[@]}" -c:a mp2 t.ts
 quiet_ffmpeg "${input[@]}" "${groups[@]}" -c:a mp2 -mpegts_m2ts_mode 1 -f mpegts t.m2ts

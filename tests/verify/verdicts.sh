@@ -8,5 +8,8 @@ found()
     value "[c['verdict'] for c in d[0]['checks'] if c['check'] == '$1'] == ['$3']"
 }
 
+# no_cut_passes FILE CUTS PLACE..: what is left of the file, cut at so many places and at these, is not called whole.
+no_cut_passes() { python3 "$WEFT_SOURCE/tests/verify/cuts.py" "$WEFT" "$@"; }
+
 small=(--raster 180x122@25i,tff)
 input=(-f lavfi -i testsrc2=s=64x48:r=25:d=0.4 -f lavfi -i sine=r=48000:d=0.4)
