@@ -106,7 +106,27 @@ static wf_siting siting_of(const wf_y4m *h) {
     return strncmp(h->chroma, "420paldv", 8) ? WF_SITING_CENTER : WF_SITING_TOP_LEFT;
 }
 
-/* A file that was cut off within a frame, which may be missing, has that one too. */
+static weft_status go_to(const wf_video *v, int64_t picture, weft_error *err) {
+    const stream *s = v->state;
+    off_t at = s->first_byte + picture * (off_t)(strlen("FRAME\n") + s->frame_bytes);
+    return fseeko(s->file, at, SEEK_SET) ? failed(v, err) : WEFT_OK;
+}
+
+/* Whether one of the first so many lines FRAME has parameters. Where the first one is, those
+ * before it are bare; a line that is damaged is not one. */
+static bool has_parameters(const wf_video *v, int64_t frames) {
+    const stream *s = v->state;
+    char mark[6];
+    bool found = false;
+    weft_error err;
+    for (int64_t n = 0; n < frames && !found; n++)
+        found = !go_to(v, n, &err) && fread(mark, sizeof mark, 1, s->file) &&
+                !memcmp(mark, "FRAME ", sizeof mark);
+    return go_to(v, 0, &err) || found;
+}
+
+/* A file that was cut off within a frame, which may be missing, has that one too. Frames with
+ * parameters are of no one length, and cannot be counted. */
 static int64_t count_y4m(const wf_video *v) {
     const stream *s = v->state;
     int64_t frames = wf_y4m_count(&s->header, s->file, s->first_byte);
@@ -114,7 +134,8 @@ static int64_t count_y4m(const wf_video *v) {
     struct stat about;
     bool cut = frames < 0 && v->options.mends && !v->pipe && s->first_byte >= 0 &&
                !fstat(fileno(s->file), &about);
-    return cut ? (about.st_size - s->first_byte + each - 1) / each : frames;
+    if (cut) frames = (about.st_size - s->first_byte + each - 1) / each;
+    return frames > 0 && has_parameters(v, cut ? frames : 1) ? -1 : frames;
 }
 
 static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err) {
@@ -185,12 +206,6 @@ static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
 static void take_y4m(wf_video *v, const uint8_t *from) {
     for (int p = 0; p < v->info.planes; p++) from = take_plane(v, p, from);
     if (wf_video_planes(&v->options, &v->info) > 3) take_plane(v, 3, from);
-}
-
-static weft_status go_to(const wf_video *v, int64_t picture, weft_error *err) {
-    const stream *s = v->state;
-    off_t at = s->first_byte + picture * (off_t)(strlen("FRAME\n") + s->frame_bytes);
-    return fseeko(s->file, at, SEEK_SET) ? failed(v, err) : WEFT_OK;
 }
 
 /* A frame that is not there is missing where others tell its place; else it is the end. */

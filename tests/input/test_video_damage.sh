@@ -146,6 +146,29 @@ check "cut off by a pipe it is as long as it is" exits 3 weft convert <(cat cut.
 check "cut Y4M" eval 'head -c $(($(stat -c %s held.y4m) - 100)) held.y4m >cut.y4m; lacking hold 99 cut.y4m $all'
 check "by a pipe" exits 3 weft convert - $box --on-missing hold -o o.y4m <cut.y4m
 check "a line that is not FRAME" eval 'spoilt held.y4m bad.y4m $(($(grep -abo FRAME held.y4m | sed -n 51p | cut -d: -f1) - 10)); lacking hold 50 bad.y4m $all'
+# Frames whose lines have parameters were not cut off by being longer; "some": from the second on.
+python3 - <<'END'
+data = open("held.y4m", "rb").read()
+begin = data.index(b"FRAME")
+each = (len(data) - begin) // 100
+frames = [data[begin + i * each + 6:begin + (i + 1) * each] for i in range(100)]
+for name, bare in ("all", 0), ("some", 1):
+    marks = [b"FRAME\n" if i < bare else b"FRAME Ip\n" for i in range(100)]
+    open(name + ".y4m", "wb").write(data[:begin] + b"".join(m + f for m, f in zip(marks, frames)))
+END
+for range in "" "--frames 1-2" "--frames 40-99"; do
+    check "bare lines $range" exits 0 weft convert held.y4m $box $all $range -o o.y4m
+    for name in all some; do
+        check "parameters of $name" exits 0 weft convert $name.y4m $box $all $range -o o2.y4m
+        check "are the same" cmp o.y4m o2.y4m
+        check "with --on-missing" exits 0 weft convert $name.y4m $box $all $range --on-missing hold -o o2.y4m
+        check "too" cmp o.y4m o2.y4m
+    done
+done
+for how in error hold; do
+    check "chunks with $how" exits 2 weft convert all.y4m $box --chunk 2/3 --on-missing $how -o no.y4m
+    check "take the number of pictures" says "known at its end only"
+done
 
 # ---- Joined ----
 
