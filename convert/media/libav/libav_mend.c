@@ -114,13 +114,22 @@ static int64_t skipped(const wf_video *v, int64_t ticks) {
     if (!r->lost) return 0;
     if (ticks == AV_NOPTS_VALUE || since == AV_NOPTS_VALUE || !wf_ratio_given(v->info.rate))
         return r->lost;
-    double since_s = (double)(ticks - since) * wf_ratio_value(v->info.tick_s);
-    int64_t past = llround(since_s * wf_ratio_value(v->info.rate)) - !first;
-    return past > 0 && past < MOST_LOST ? past : 0;
+    double since_s = ((double)ticks - (double)since) * wf_ratio_value(v->info.tick_s);
+    double past = round(since_s * wf_ratio_value(v->info.rate)) - !first;
+    return past > 0 && past < (double)MOST_LOST ? (int64_t)past : 0;
 }
 
-static int64_t ticks_off(const wf_video_info *info, int64_t n, int64_t ticks) {
-    return llabs(info->times[n] - ticks);
+/* Without a sign, as the times of damaged files may be farther apart than one holds. */
+static uint64_t ticks_off(const wf_video_info *info, int64_t n, int64_t ticks) {
+    uint64_t off = (uint64_t)info->times[n] - (uint64_t)ticks;
+    return info->times[n] < ticks ? -off : off;
+}
+
+/* A picture that is there is none after the last that the file has. */
+static int64_t within(const wf_video *v, int64_t place) {
+    int64_t last = v->info.frames < 0 ? place : v->info.frames - 1;
+    if (place > last) place = last;
+    return place < v->frame.index ? v->frame.index : place;
 }
 
 /* The number of the frame in hand: that of the nearest time that is listed, which may be
@@ -129,7 +138,8 @@ static int64_t place_of(const wf_video *v) {
     const wf_libav_reading *r = v->state;
     const wf_video_info *info = &v->info;
     int64_t ticks = r->frame->best_effort_timestamp, n = v->frame.index;
-    if (!info->times || r->by_decoding) return n + skipped(v, ticks);
+    if (!info->times || r->by_decoding) return within(v, n + skipped(v, ticks));
+    if (ticks == AV_NOPTS_VALUE) return n;
     while (n + 1 < info->frames && ticks_off(info, n + 1, ticks) < ticks_off(info, n, ticks))
         n++;
     return n < info->frames && ticks_off(info, n, ticks) <= 1 ? n : v->frame.index;
@@ -212,7 +222,8 @@ weft_status wf_libav_mend_count(wf_video *v, weft_error *err) {
 /* A missing picture is shown when it is listed, else one of the stated rate after the last. */
 static void give_missing(wf_video *v) {
     const wf_video_info *info = &v->info;
-    wf_libav_give_time(v, info->times ? info->times[v->frame.index] : AV_NOPTS_VALUE, 0);
+    bool listed = info->times && v->frame.index < info->frames;
+    wf_libav_give_time(v, listed ? info->times[v->frame.index] : AV_NOPTS_VALUE, 0);
     v->frame.missing = true;
 }
 
