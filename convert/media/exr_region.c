@@ -46,11 +46,20 @@ static bool is(const attribute *a, const char *name, const char *type) {
     return !strcmp(a->name, name) && !strcmp(a->type, type);
 }
 
+/* Places of pixels beyond this are damage, and could not be added to one another. */
+static bool is_place(int64_t n) {
+    return n > -(INT64_C(1) << 29) && n < INT64_C(1) << 29;
+}
+
 static bool read_box(FILE *file, wf_box *box) {
-    uint32_t n[4];
-    for (int i = 0; i < 4; i++)
-        if (!read_number(file, &n[i])) return false;
-    *box = (wf_box){(int)n[0], (int)n[1], (int)n[2] + 1, (int)n[3] + 1};
+    int32_t n[4];
+    for (int i = 0; i < 4; i++) {
+        uint32_t bits;
+        if (!read_number(file, &bits)) return false;
+        n[i] = (int32_t)bits;
+        if (!is_place(n[i])) return false;
+    }
+    *box = (wf_box){n[0], n[1], n[2] + 1, n[3] + 1};
     return true;
 }
 
@@ -92,7 +101,13 @@ static bool settle(header *h) {
     wf_box *r = &h->region;
     if (!h->is_box) {
         char rest;
-        return sscanf(h->text, "%d ,%d ,%d ,%d%c", &r->x0, &r->y0, &r->x1, &r->y1, &rest) == 4;
+        long long n[4];
+        if (sscanf(h->text, "%lld ,%lld ,%lld ,%lld%c", &n[0], &n[1], &n[2], &n[3], &rest) != 4)
+            return false;
+        for (int i = 0; i < 4; i++)
+            if (!is_place(n[i])) return false;
+        *r = (wf_box){(int)n[0], (int)n[1], (int)n[2], (int)n[3]};
+        return true;
     }
     *r = (wf_box){r->x0 - x, r->y0 - y, r->x1 - x, r->y1 - y};
     return true;

@@ -203,8 +203,10 @@ static void warn_of_width(const wf_plan *plan) {
 }
 
 weft_status wf_plan_make(const weft_job *job, wf_plan *plan, weft_error *err) {
-    *plan =
-        (wf_plan){.job = *job, .rate = job->subframe_rate, .shown_rate = job->subframe_rate};
+    *plan = (wf_plan){.job = *job,
+                      .asked = job,
+                      .rate = job->subframe_rate,
+                      .shown_rate = job->subframe_rate};
     weft_status status = wf_job_check_time(job, err);
     if (status) return status;
     wf_job_settle(&plan->job);

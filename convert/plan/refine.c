@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "convert/media/exr_region.h"
 #include "convert/read/sequence.h"
@@ -52,6 +53,13 @@ void wf_refine_want(const wf_refining *r, wf_refine_slot *slot, wf_box box) {
 /* ---- What is there ---- */
 
 /* Whether a folder holds no file; false with the reason where it is none. */
+/* Some file systems do not tell what an entry is. */
+static bool is_folder(DIR *directory, const struct dirent *entry) {
+    struct stat about;
+    if (entry->d_type != DT_UNKNOWN) return entry->d_type == DT_DIR;
+    return !fstatat(dirfd(directory), entry->d_name, &about, 0) && S_ISDIR(about.st_mode);
+}
+
 static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
     DIR *directory = opendir(folder);
     *empty = true;
@@ -62,7 +70,7 @@ static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
             "which may be empty",
             folder, strerror(errno));
     for (const struct dirent *entry; (entry = readdir(directory));)
-        if (entry->d_name[0] != '.' && entry->d_type != DT_DIR) *empty = false;
+        if (entry->d_name[0] != '.' && !is_folder(directory, entry)) *empty = false;
     closedir(directory);
     return WEFT_OK;
 }
@@ -197,8 +205,8 @@ static weft_status refine_fields(wf_refining *r, weft_error *err) {
     const wf_plan *plan = r->plan;
     weft_status status = WEFT_OK;
     for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
-        status = plan->job.cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted")
-                                     : refine_field(r, n, err);
+        status = plan->asked->cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted")
+                                        : refine_field(r, n, err);
     for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
         if (!has_two(plan, n)) look_between(r, n);
     return status;

@@ -138,12 +138,13 @@ static void put_json(const wf_plan *plan, FILE *to) {
 static const struct {
     const char *name;
     void (*put)(const wf_plan *plan, FILE *to);
-} formats[] = {{"text", put_text},
-               {"json", put_json},
-               {"csv", put_csv},
-               {"blender", wf_plan_for_blender},
-               {"povray", wf_plan_for_povray},
-               {"houdini", wf_plan_for_houdini}};
+    bool renders; /* makes pictures that do not say which part of them exists */
+} formats[] = {{"text", put_text, false},
+               {"json", put_json, false},
+               {"csv", put_csv, false},
+               {"blender", wf_plan_for_blender, true},
+               {"povray", wf_plan_for_povray, true},
+               {"houdini", wf_plan_for_houdini, true}};
 
 static weft_status refuse_format(const char *format, weft_error *err) {
     wf_spelling spelling = {.text = format};
@@ -161,6 +162,13 @@ weft_status wf_plan_tell(const wf_plan *plan, const char *format, char **text,
     *text = NULL;
     while (i < count && strcmp(formats[i].name, format)) i++;
     if (i == count) return refuse_format(format, err);
+    if (plan->job.refine && formats[i].renders)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--format %s and --refine: rectangles have to say where they are, which its "
+            "pictures do not; take --format json and stamp them with weft:region, as "
+            "examples/stamp_exr.py does",
+            format);
     FILE *to = open_memstream(text, &size);
     if (to) formats[i].put(plan, to);
     if (to && !fclose(to) && size) return WEFT_OK;

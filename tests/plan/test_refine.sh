@@ -50,6 +50,8 @@ cp other/shot.0000.exr other/shot.0003.exr half
 head -c 3000 other/shot.0008.exr >half/shot.0008.exr
 check "a file that is half written" fails "shot.0008.exr.*being written" plan half --error 0.01
 rm half/shot.0008.exr
+check "a script of rectangles" refuses "stamp them with weft:region" plan --raster 96x64@30i,tff --frames 0-1 \
+    --subframe-rate 480 --refine half --error 0.01 --format blender
 check "the first pass, half done" exits 0 plan half --error 0.01 --format json
 check "wants the other half" value "[s['number'] for s in d['subframes'] if s['region'] == [0, 0, 96, 64]] == [8, 16, 24, 27]"
 check "all of it" exits 0 plan other --error 0.01 --format json

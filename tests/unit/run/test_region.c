@@ -1,6 +1,7 @@
 /* Subframes that exist in a rectangle alone: what each pixel is, by the cells of those that
  * exist there, in closed form. The aperture is one line high and one pixel wide and pictures
  * have the raster's size, so that a pixel sees itself. */
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -184,6 +185,9 @@ static void what_will_not_do(void **state) {
     s.region[1] = (wf_box){WIDTH, 0, WIDTH + 4, 4};
     write_file(&s, 1);
     job_refused(looks, "out.####.exr", WEFT_FAILED, "0,0,16,12 for all of it");
+    s.region[1] = (wf_box){0, 0, INT_MAX, 9};
+    write_file(&s, 1);
+    job_refused(looks, "out.####.exr", WEFT_FAILED, "is no rectangle of its pixels");
 }
 
 int main(void) {
