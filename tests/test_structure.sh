@@ -89,7 +89,7 @@ convert/media/libav : filters/* color/* convert/base convert/job convert/media
 convert/media/deinterlace : filters/* convert/base convert/job convert/media
 convert/media/structure : convert/base convert/media
 convert/read/choice :
-convert/read/exr    : filters/base convert/base
+convert/read/exr    : filters/base convert/base convert/read/choice
 convert/read        : filters/* color/* tracer/scene convert/base convert/job convert/media convert/media/* convert/read/choice convert/read/exr
 convert/video       : filters/* color/* convert/base convert/job convert/media convert/read
 convert/sound       : filters/* convert/base convert/job convert/media convert/read

@@ -147,6 +147,10 @@ bool wf_job_writes_alpha(const weft_job *job) {
     return job->alpha_out || job->key;
 }
 
+bool wf_job_shows_background(const weft_job *job) {
+    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
+}
+
 weft_status wf_job_check_alpha(const weft_job *job, weft_error *err) {
     bool writes_alpha = wf_job_writes_alpha(job);
     const float *behind = job->background;

@@ -116,6 +116,9 @@ weft_status wf_job_check(const weft_job *job, weft_error *err);
 /* Whether alpha goes anywhere: beside the picture, or into a key. */
 bool wf_job_writes_alpha(const weft_job *job);
 
+/* Whether what lies behind pictures is other than black. */
+bool wf_job_shows_background(const weft_job *job);
+
 /* The same of the options of alpha alone. */
 weft_status wf_job_check_alpha(const weft_job *job, weft_error *err);
 

@@ -2,14 +2,10 @@
 #define WF_CONVERT_MEDIA_IMAGE_H
 
 #include "convert/job/choices.h"
+#include "convert/media/box.h"
 #include "filters/base/rational.h"
 
 /* What files of pictures say of themselves. */
-
-/* Half-open pixel rectangle: x0 <= x < x1. */
-typedef struct wf_box {
-    int x0, y0, x1, y1;
-} wf_box;
 
 /* What a file says of its colors, as it says it; what of that counts is decided in
  * convert/read/file_colors.c. */

@@ -18,32 +18,11 @@ static wf_box whole_of(const wf_plan *plan) {
     return (wf_box){0, 0, plan->width_px, plan->lines};
 }
 
-static int lower(int a, int b) {
-    return a < b ? a : b;
-}
-
-static int higher(int a, int b) {
-    return a > b ? a : b;
-}
-
-wf_box wf_box_around(wf_box a, wf_box b) {
-    if (a.x0 >= a.x1) return b;
-    if (b.x0 >= b.x1) return a;
-    return (wf_box){lower(a.x0, b.x0), lower(a.y0, b.y0), higher(a.x1, b.x1),
-                    higher(a.y1, b.y1)};
-}
-
-static bool contains(wf_box a, wf_box b) {
-    return a.x0 <= b.x0 && a.y0 <= b.y0 && a.x1 >= b.x1 && a.y1 >= b.y1;
-}
-
 void wf_refine_want(const wf_refining *r, wf_refine_slot *slot, wf_box box) {
-    wf_box all = whole_of(r->plan);
-    box = (wf_box){higher(box.x0, all.x0), higher(box.y0, all.y0), lower(box.x1, all.x1),
-                   lower(box.y1, all.y1)};
+    box = wf_box_overlap(box, whole_of(r->plan));
     if (slot->whole) return;
     if (slot->path) {
-        if (contains(slot->region, box)) return;
+        if (wf_box_contains(slot->region, box)) return;
         box = wf_box_around(slot->region, box);
     }
     slot->wanted = slot->is_wanted ? wf_box_around(slot->wanted, box) : box;
@@ -52,7 +31,6 @@ void wf_refine_want(const wf_refining *r, wf_refine_slot *slot, wf_box box) {
 
 /* ---- What is there ---- */
 
-/* Whether a folder holds no file; false with the reason where it is none. */
 /* Some file systems do not tell what an entry is. */
 static bool is_folder(DIR *directory, const struct dirent *entry) {
     struct stat about;
@@ -60,6 +38,7 @@ static bool is_folder(DIR *directory, const struct dirent *entry) {
     return !fstatat(dirfd(directory), entry->d_name, &about, 0) && S_ISDIR(about.st_mode);
 }
 
+/* Whether a folder holds no file; false with the reason where it is none. */
 static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
     DIR *directory = opendir(folder);
     *empty = true;
@@ -99,7 +78,7 @@ static weft_status take_file(const wf_plan *plan, wf_refine_slot *slot, const ch
     if (status) return status;
     slot->path = strdup(path);
     if (!slot->path) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
-    slot->whole = !has || contains(slot->region, whole_of(plan));
+    slot->whole = !has || wf_box_contains(slot->region, whole_of(plan));
     if (slot->whole) slot->region = whole_of(plan);
     return WEFT_OK;
 }

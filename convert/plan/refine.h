@@ -32,9 +32,6 @@ weft_status wf_plan_refine(wf_plan *plan, weft_error *err);
 weft_status wf_refine_estimate(wf_refining *refining, int64_t field, size_t first, size_t last,
                                wf_box *moved, weft_error *err);
 
-/* Empty boxes hold no pixel, and are nothing beside others. */
-wf_box wf_box_around(wf_box a, wf_box b);
-
 /* Adds a rectangle to what is wanted of a slot, and what there is of it, which it replaces. */
 void wf_refine_want(const wf_refining *refining, wf_refine_slot *slot, wf_box box);
 

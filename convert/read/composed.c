@@ -9,43 +9,16 @@
 
 /* ---- The picture ---- */
 
-static int lower(int a, int b) {
-    return a < b ? a : b;
-}
-
-static int higher(int a, int b) {
-    return a > b ? a : b;
-}
-
-static wf_box moved(wf_box box, int x, int y) {
-    return (wf_box){box.x0 + x, box.y0 + y, box.x1 + x, box.y1 + y};
-}
-
-static wf_box overlap(wf_box a, wf_box b) {
-    return (wf_box){higher(a.x0, b.x0), higher(a.y0, b.y0), lower(a.x1, b.x1),
-                    lower(a.y1, b.y1)};
-}
-
-static bool is_empty(wf_box box) {
-    return box.x0 >= box.x1 || box.y0 >= box.y1;
-}
-
-static wf_box around(wf_box a, wf_box b) {
-    if (is_empty(b)) return a;
-    return (wf_box){lower(a.x0, b.x0), lower(a.y0, b.y0), higher(a.x1, b.x1),
-                    higher(a.y1, b.y1)};
-}
-
 /* Where a layer exists, in the coordinates of its windows: its display and data window. */
 static wf_box exists(const wf_layer_over *layer) {
     const wf_image_info *info = &layer->picture->info;
-    wf_box region = moved(layer->region, info->display.x0, info->display.y0);
-    return overlap(region, around(info->display, info->data));
+    wf_box region = wf_box_moved(layer->region, info->display.x0, info->display.y0);
+    return wf_box_overlap(region, wf_box_around(info->display, info->data));
 }
 
 /* What it holds there; elsewhere in the display window it is 0. */
 static wf_box holds(const wf_layer_over *layer) {
-    return overlap(exists(layer), layer->picture->info.data);
+    return wf_box_overlap(exists(layer), layer->picture->info.data);
 }
 
 static void settle(wf_subframe *s) {
@@ -54,7 +27,7 @@ static void settle(wf_subframe *s) {
     s->info.whole = false;
     for (int i = 1; i < s->layers; i++) {
         const wf_layer_over *layer = &s->layer[i];
-        s->info.data = around(s->info.data, holds(layer));
+        s->info.data = wf_box_around(s->info.data, holds(layer));
         s->info.has_alpha |= layer->picture->info.has_alpha;
         s->info.whole |= layer->picture->info.whole;
     }
@@ -123,12 +96,12 @@ static weft_status lay(wf_reader *r, wf_reader *by, const wf_layer_over *layer, 
                        weft_error *err) {
     const wf_rows *to = &r->rows;
     const wf_box band = {to->x0, to->y0, to->x1, to->y1};
-    wf_box held = overlap(overlap(there, layer->picture->info.data), band);
-    wf_box all = overlap(there, band);
+    wf_box held = wf_box_overlap(wf_box_overlap(there, layer->picture->info.data), band);
+    wf_box all = wf_box_overlap(there, band);
     wf_rows rows;
-    if (is_empty(all)) return WEFT_OK;
+    if (wf_box_is_empty(all)) return WEFT_OK;
     clear(to, all);
-    if (is_empty(held)) return WEFT_OK;
+    if (wf_box_is_empty(held)) return WEFT_OK;
     wf_source_counts before = by->counts;
     weft_status status = wf_reader_rows(by, layer->picture, held.y0, held.y1, &rows, err);
     for (int c = 0; !status && c < to->channels; c++) copy_channel(to, &rows, c, held);

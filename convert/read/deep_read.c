@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "convert/base/reserve.h"
+#include "convert/read/choice/exr_parts.h"
 #include "convert/read/source_exr.h"
 #include "convert/read/exr/unzip.h"
 #include "filters/base/half.h"
@@ -55,11 +56,6 @@ static exr_result_t start(const char *path, exr_context_t *exr) {
     return exr_start_read(exr, path, &how);
 }
 
-static const exr_attr_chlist_t *channels_of(exr_context_t exr) {
-    const exr_attr_chlist_t *list = NULL;
-    return exr_get_channels(exr, 0, &list) == EXR_ERR_SUCCESS ? list : NULL;
-}
-
 static bool is_deep(exr_context_t exr) {
     exr_storage_t storage;
     return exr_get_storage(exr, 0, &storage) == EXR_ERR_SUCCESS &&
@@ -70,7 +66,7 @@ bool wf_deep_is(const char *path) {
     exr_context_t exr = NULL;
     bool found = false;
     if (start(path, &exr) != EXR_ERR_SUCCESS) return false;
-    const exr_attr_chlist_t *list = is_deep(exr) ? channels_of(exr) : NULL;
+    const exr_attr_chlist_t *list = is_deep(exr) ? wf_exr_channels(exr, 0) : NULL;
     for (int c = 0; list && c < list->num_channels; c++)
         found |= !strcmp(list->entries[c].name.str, names[WF_DEEP_X].name);
     exr_finish(&exr);
@@ -86,7 +82,7 @@ static int what_is(const char *name) {
 }
 
 static weft_status find_channels(wf_deep_file *f, weft_error *err) {
-    const exr_attr_chlist_t *list = channels_of(f->exr);
+    const exr_attr_chlist_t *list = wf_exr_channels(f->exr, 0);
     if (!list || list->num_channels > MOST_STORED)
         return wf_fail(err, WEFT_FAILED, "%s: its channels cannot be read, or are too many",
                        f->path);

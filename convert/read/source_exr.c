@@ -31,11 +31,6 @@ bool wf_is_exr(const char *path) {
 
 /* ---- Parts ---- */
 
-static const exr_attr_chlist_t *channels_of(exr_const_context_t exr, int part) {
-    const exr_attr_chlist_t *list = NULL;
-    return exr_get_channels(exr, part, &list) == EXR_ERR_SUCCESS ? list : NULL;
-}
-
 /* The picture among all parts; its part and the name of that. */
 static weft_status choose_picture(wf_subframe *s, const wf_source_options *o, int part,
                                   weft_error *err) {
@@ -80,7 +75,7 @@ static weft_status check_channel(const wf_subframe *s, const exr_attr_chlist_ent
 }
 
 static weft_status lay_out_channels(wf_subframe *s, weft_error *err) {
-    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    const exr_attr_chlist_t *list = wf_exr_channels(s->exr, s->part);
     const wf_pick *pick = &s->pick;
     wf_exr_layout *l = &s->layout;
     l->channels = pick->count;
@@ -170,7 +165,7 @@ static weft_status read_windows(wf_subframe *s, weft_error *err) {
 /* Bytes of all samples but those of subsampled channels. */
 static uint64_t least_samples_bytes(const wf_subframe *s) {
     const wf_exr_layout *l = &s->layout;
-    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    const exr_attr_chlist_t *list = wf_exr_channels(s->exr, s->part);
     uint64_t pixel_bytes = 0;
     for (int i = 0; i < list->num_channels; i++)
         if (list->entries[i].x_sampling == 1 && list->entries[i].y_sampling == 1)
@@ -300,7 +295,7 @@ static const char *compression_name(exr_compression_t compression) {
 
 static void describe(wf_subframe *s) {
     const wf_exr_layout *l = &s->layout;
-    const exr_attr_chlist_t *list = channels_of(s->exr, s->part);
+    const exr_attr_chlist_t *list = wf_exr_channels(s->exr, s->part);
     char channels[48] = "";
     size_t used = 0;
     for (int i = 0; i < list->num_channels && i < 4; i++)

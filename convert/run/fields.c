@@ -173,10 +173,6 @@ static void lay_over_background(const weft_job *job, wf_samples *block, float *r
     }
 }
 
-static bool shows_background(const weft_job *job) {
-    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
-}
-
 weft_status weft_fields_push(weft_fields *f, const weft_samples *s, weft_error *err) {
     wf_samples block = {.count = s->count,
                         .x = s->x,
@@ -188,7 +184,7 @@ weft_status weft_fields_push(weft_fields *f, const weft_samples *s, weft_error *
                         .alpha = s->alpha};
     if (!s->count) return WEFT_OK;
     if (!all_finite(s)) return wf_fail(err, WEFT_USAGE, "a sample is not finite");
-    if (!s->alpha || !shows_background(f->job)) return gather(f, &block, err);
+    if (!s->alpha || !wf_job_shows_background(f->job)) return gather(f, &block, err);
     float *rgb = s->count > SIZE_MAX / 16 ? NULL : malloc(3 * s->count * sizeof *rgb);
     if (!rgb) return wf_fail(err, WEFT_NO_MEMORY, "no memory for samples");
     lay_over_background(f->job, &block, rgb);

@@ -242,10 +242,6 @@ weft_status wf_refine_sequence(const weft_job *job, const wf_image_info *first,
 
 /* ---- What a span shows ---- */
 
-static bool contains(const wf_box *a, const wf_box *b) {
-    return a->x0 <= b->x0 && a->y0 <= b->y0 && a->x1 >= b->x1 && a->y1 >= b->y1;
-}
-
 /* Files between two whole ones that hide or leave open what a span shows. */
 typedef struct stacking {
     const wf_refined *r;
@@ -263,7 +259,7 @@ static wf_rational distance(const stacking *s, const wf_refined_file *file) {
 static bool is_hidden(const stacking *s, const wf_refined_file *file) {
     for (int i = 0; i < s->count; i++)
         if (s->stack[i]->whole ||
-            (!file->whole && contains(&s->stack[i]->region, &file->region)))
+            (!file->whole && wf_box_contains(s->stack[i]->region, file->region)))
             return true;
     return false;
 }

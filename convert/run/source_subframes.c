@@ -49,10 +49,6 @@ static const wf_subframe_ref *first_present(const wf_sequence *sequence) {
     return NULL;
 }
 
-static bool shows_background(const weft_job *job) {
-    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
-}
-
 /* A configuration's scene_linear role stands for light of which the files say nothing. */
 static void look_at_colors(wf_run *run, const char *path) {
     const subframes *s = run->source;
@@ -94,7 +90,7 @@ static weft_status find_input(wf_run *run, weft_error *err) {
     s->options = (wf_source_options){
         .layer = job->layer,
         .part = job->part,
-        .want_alpha = (shows_background(job) || wf_job_writes_alpha(job)) &&
+        .want_alpha = (wf_job_shows_background(job) || wf_job_writes_alpha(job)) &&
                       job->alpha != WF_ALPHA_IGNORED,
         .alpha = job->alpha,
         .to_light = !job->from,

@@ -97,10 +97,6 @@ static void tell_guess(const wf_run *run) {
                 m->full_range ? "full" : "narrow");
 }
 
-static bool shows_background(const weft_job *job) {
-    return job->background[0] != 0 || job->background[1] != 0 || job->background[2] != 0;
-}
-
 static bool has_alpha(const video_source *s) {
     return s->alpha == WF_ALPHA_STRAIGHT || s->alpha == WF_ALPHA_PREMULTIPLIED;
 }
@@ -111,7 +107,8 @@ static void find_alpha(wf_run *run) {
     const weft_job *job = run->job;
     video_source *s = run->source;
     s->alpha = wf_meaning_alpha(&s->info, job->alpha, &run->report->taken);
-    s->channels = has_alpha(s) && (shows_background(job) || wf_job_writes_alpha(job)) ? 4 : 3;
+    s->channels =
+        has_alpha(s) && (wf_job_shows_background(job) || wf_job_writes_alpha(job)) ? 4 : 3;
     if (s->info.alpha_lost && job->alpha != WF_ALPHA_IGNORED)
         wf_job_warn(job,
                     "%s: it has alpha, which this libavcodec does not decode: its pictures are "

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const exr_attr_chlist_t *channels_of(exr_const_context_t exr, int part) {
+const exr_attr_chlist_t *wf_exr_channels(exr_const_context_t exr, int part) {
     const exr_attr_chlist_t *list = NULL;
     return exr_get_channels(exr, part, &list) == EXR_ERR_SUCCESS ? list : NULL;
 }
@@ -36,7 +36,7 @@ static void mark_cryptomatte(exr_const_context_t exr, int number, wf_channel *ch
 }
 
 static int fill_part(exr_const_context_t exr, int number, wf_part *part, wf_channel *channel) {
-    const exr_attr_chlist_t *list = channels_of(exr, number);
+    const exr_attr_chlist_t *list = wf_exr_channels(exr, number);
     const char *name = NULL;
     bool named = exr_get_name(exr, number, &name) == EXR_ERR_SUCCESS && name;
     *part = (wf_part){.name = named ? name : "",
@@ -56,7 +56,7 @@ bool wf_exr_parts_find(exr_const_context_t exr, wf_exr_parts *out) {
     int count = 0, channels = 0;
     exr_get_count(exr, &count);
     for (int p = 0; p < count; p++) {
-        const exr_attr_chlist_t *list = channels_of(exr, p);
+        const exr_attr_chlist_t *list = wf_exr_channels(exr, p);
         channels += list ? list->num_channels : 0;
     }
     *out = (wf_exr_parts){.part = calloc((size_t)count + 1, sizeof *out->part),

@@ -13,6 +13,9 @@ typedef struct wf_exr_parts {
     int count;
 } wf_exr_parts;
 
+/* The channels of a part; NULL if the file has none. */
+const exr_attr_chlist_t *wf_exr_channels(exr_const_context_t exr, int part);
+
 /* False when memory is out, with nothing to free. */
 bool wf_exr_parts_find(exr_const_context_t exr, wf_exr_parts *out);
 void wf_exr_parts_free(wf_exr_parts *parts);

@@ -8,13 +8,12 @@
 
 /* ---- Names ---- */
 
-/* Length of the layer part of a channel name: 7 of "diffuse.R", 0 of "R". */
-static size_t layer_length(const char *name) {
+size_t wf_layer_length(const char *name) {
     const char *dot = strrchr(name, '.');
     return dot ? (size_t)(dot - name) : 0;
 }
 
-static const char *base_of(const char *name) {
+const char *wf_layer_base(const char *name) {
     const char *dot = strrchr(name, '.');
     return dot ? dot + 1 : name;
 }
@@ -95,7 +94,7 @@ static bool is_cryptomatte(const char *name, size_t length) {
 /* ---- Layers of a part ---- */
 
 static bool in_layer(const wf_layer *l, const char *name) {
-    return layer_length(name) == l->length && !strncmp(name, l->name, l->length);
+    return wf_layer_length(name) == l->length && !strncmp(name, l->name, l->length);
 }
 
 /* The channel of a layer by its name without the prefix, as it is written or in any case. */
@@ -104,8 +103,8 @@ static int find(const wf_layer *l, const char *base) {
     for (int i = 0; i < l->part->count; i++) {
         const char *name = l->part->channel[i].name;
         if (!in_layer(l, name)) continue;
-        if (!strcmp(base_of(name), base)) return i;
-        if (any_case < 0 && !strcasecmp(base_of(name), base)) any_case = i;
+        if (!strcmp(wf_layer_base(name), base)) return i;
+        if (any_case < 0 && !strcasecmp(wf_layer_base(name), base)) any_case = i;
     }
     return any_case;
 }
@@ -188,7 +187,7 @@ bool wf_layer_is_data(const wf_layer *l) {
 
 static bool leads(const wf_part *part, int i) {
     const char *name = part->channel[i].name;
-    const wf_layer l = {.part = part, .name = name, .length = layer_length(name)};
+    const wf_layer l = {.part = part, .name = name, .length = wf_layer_length(name)};
     for (int j = 0; j < i; j++)
         if (in_layer(&l, part->channel[j].name)) return false;
     return true;
@@ -197,11 +196,12 @@ static bool leads(const wf_part *part, int i) {
 static void add_part(wf_layers *all, const wf_part *part, int number) {
     for (int i = 0; i < part->count; i++)
         if (leads(part, i))
-            all->of[all->count++] = (wf_layer){.part = part,
-                                               .number = number,
-                                               .lead = i,
-                                               .name = part->channel[i].name,
-                                               .length = layer_length(part->channel[i].name)};
+            all->of[all->count++] =
+                (wf_layer){.part = part,
+                           .number = number,
+                           .lead = i,
+                           .name = part->channel[i].name,
+                           .length = wf_layer_length(part->channel[i].name)};
 }
 
 /* False when memory is out. */
@@ -222,7 +222,7 @@ static void name_channels(const wf_layer *l, char *text, size_t size) {
     text[0] = '\0';
     for (size_t rank = 0; rank < sizeof order; rank++)
         for (int i = 0; i < l->part->count; i++) {
-            const char *base = base_of(l->part->channel[i].name);
+            const char *base = wf_layer_base(l->part->channel[i].name);
             const char *at = base[0] && !base[1] ? strchr(order, base[0] & ~32) : NULL;
             size_t place = at && *at ? (size_t)(at - order) : sizeof order - 1;
             if (place != rank || !in_layer(l, l->part->channel[i].name)) continue;

@@ -35,6 +35,11 @@ typedef struct wf_layers {
     int count;
 } wf_layers;
 
+/* Length of the layer part of a channel's name: 7 of "diffuse.R", 0 of "R"; and what follows
+ * it. */
+size_t wf_layer_length(const char *name);
+const char *wf_layer_base(const char *name);
+
 /* Finds the layers of all parts, in their order. False when memory is out. */
 bool wf_layers_find(const wf_part *parts, int count, wf_layers *all);
 

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "convert/read/choice/layers.h"
+
 #define MOST_SUFFIX 128
 #define MOST_RULES  256 /* writers store at most fifteen */
 
@@ -26,18 +28,8 @@ static const rule first_rules[] = {
     {"ry", WF_DWA_LOSSY, -1, true, -1},   {"a", WF_DWA_RUNS, -1, true, -1},
 };
 
-static size_t prefix_length(const char *name) {
-    const char *dot = strrchr(name, '.');
-    return dot ? (size_t)(dot - name) : 0;
-}
-
-static const char *suffix_of(const char *name) {
-    const char *dot = strrchr(name, '.');
-    return dot ? dot + 1 : name;
-}
-
 static bool matches(const rule *r, const wf_exr_channel *c) {
-    const char *suffix = suffix_of(c->name);
+    const char *suffix = wf_layer_base(c->name);
     if (r->type < 0 && r->way == WF_DWA_LOSSY && c->type == WF_EXR_UINT) return false;
     if (r->type >= 0 && r->type != (int)c->type) return false;
     return !(r->any_case ? strcasecmp : strcmp)(suffix, r->suffix);
@@ -49,9 +41,9 @@ static bool matches(const rule *r, const wf_exr_channel *c) {
  * is 0 for none, 1 for red and so on; of two the later counts. */
 static int find_part(const wf_exr_shape *shape, const uint8_t *part_of, int like, int part) {
     int found = -1;
-    size_t length = prefix_length(shape->channel[like].name);
+    size_t length = wf_layer_length(shape->channel[like].name);
     for (int i = 0; i < shape->channels; i++)
-        if (part_of[i] == part && prefix_length(shape->channel[i].name) == length &&
+        if (part_of[i] == part && wf_layer_length(shape->channel[i].name) == length &&
             !memcmp(shape->channel[i].name, shape->channel[like].name, length))
             found = i;
     return found;
@@ -80,7 +72,7 @@ static const char *add_color(wf_dwa_plan *plan, const wf_exr_shape *shape,
 /* As text: a name that another begins with comes before it. */
 static bool comes_before(const wf_exr_shape *shape, const int *a, const int *b) {
     const char *x = shape->channel[*a].name, *y = shape->channel[*b].name;
-    size_t left = prefix_length(x), right = prefix_length(y);
+    size_t left = wf_layer_length(x), right = wf_layer_length(y);
     int order = memcmp(x, y, left < right ? left : right);
     return order ? order < 0 : left < right;
 }
