@@ -40,8 +40,12 @@ void wf_plan_free(wf_plan *plan);
 /* The time of a subframe, in seconds of the scene. */
 wf_rational wf_plan_time(const wf_plan *plan, int64_t number);
 
-/* A plan as text of a format (WF_PLAN_FORMATS); the caller's, free(). WEFT_USAGE for others. */
+/* Whether the job's plan can be told in a format: one of WF_PLAN_FORMATS, and none that renders
+ * where rectangles are wanted. WEFT_USAGE for others. */
 #define WF_PLAN_FORMATS "text|json|csv|blender|povray|houdini"
+weft_status wf_plan_check_format(const weft_job *job, const char *format, weft_error *err);
+
+/* A plan as text of such a format; the caller's, free(). */
 weft_status wf_plan_tell(const wf_plan *plan, const char *format, char **text, weft_error *err);
 
 #endif

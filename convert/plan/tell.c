@@ -156,21 +156,32 @@ static weft_status refuse_format(const char *format, weft_error *err) {
                    spelling.best ? spelling.best : "");
 }
 
-weft_status wf_plan_tell(const wf_plan *plan, const char *format, char **text,
-                         weft_error *err) {
-    size_t i = 0, count = sizeof formats / sizeof *formats, size = 0;
-    *text = NULL;
-    while (i < count && strcmp(formats[i].name, format)) i++;
-    if (i == count) return refuse_format(format, err);
-    if (plan->job.refine && formats[i].renders)
+/* Its row; past the last: there is none. */
+static size_t find_format(const char *format) {
+    size_t i = 0;
+    while (i < sizeof formats / sizeof *formats && strcmp(formats[i].name, format)) i++;
+    return i;
+}
+
+weft_status wf_plan_check_format(const weft_job *job, const char *format, weft_error *err) {
+    size_t i = find_format(format);
+    if (i == sizeof formats / sizeof *formats) return refuse_format(format, err);
+    if (job->refine && formats[i].renders)
         return wf_fail(
             err, WEFT_USAGE,
             "--format %s and --refine: rectangles have to say where they are, which its "
             "pictures do not; take --format json and stamp them with weft:region, as "
             "examples/stamp_exr.py does",
             format);
+    return WEFT_OK;
+}
+
+weft_status wf_plan_tell(const wf_plan *plan, const char *format, char **text,
+                         weft_error *err) {
+    size_t size = 0;
+    *text = NULL;
     FILE *to = open_memstream(text, &size);
-    if (to) formats[i].put(plan, to);
+    if (to) formats[find_format(format)].put(plan, to);
     if (to && !fclose(to) && size) return WEFT_OK;
     free(*text);
     *text = NULL;
