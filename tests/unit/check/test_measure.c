@@ -12,24 +12,11 @@
 #include "convert/check/histogram.h"
 #include "convert/check/measure.h"
 #include "tests/unit/support/exr_write.h"
+#include "tests/unit/support/jobs.h"
 #include "tests/unit/support/zoneplate.h"
 
-static char directory[] = "/tmp/weft-measure-XXXXXX";
-
 static void path_of(char path[128], const char *name) {
-    snprintf(path, 128, "%s/%s", directory, name);
-}
-
-static int make_directory(void **state) {
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int remove_directory(void **state) {
-    char command[160];
-    (void)state;
-    snprintf(command, sizeof command, "rm -r %s", directory);
-    return system(command);
+    snprintf(path, 128, "%s/%s", job_directory, name);
 }
 
 /* ---- Pictures of light ---- */
@@ -580,5 +567,5 @@ int main(void) {
         cmocka_unit_test(differences),
         cmocka_unit_test(bad_input),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);
 }

@@ -13,20 +13,7 @@
 #include "filters/seen/eye.h"
 #include "filters/seen/sensitivity.h"
 #include "tests/unit/support/exr_write.h"
-
-static char directory[] = "/tmp/weft-seen-XXXXXX";
-
-static int make_directory(void **state) {
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int remove_directory(void **state) {
-    char command[160];
-    (void)state;
-    snprintf(command, sizeof command, "rm -r %s", directory);
-    return system(command);
-}
+#include "tests/unit/support/jobs.h"
 
 /* ---- Pictures of light ---- */
 
@@ -62,16 +49,16 @@ static wf_figures measured(const char *raster, int frames, light_fn *light, cons
                                .compression = EXR_COMPRESSION_ZIP,
                                .value = light_at,
                                .user = &p};
-        snprintf(path, sizeof path, "%s/f.%04d.exr", directory, n);
+        snprintf(path, sizeof path, "%s/f.%04d.exr", job_directory, n);
         assert_true(exr_write(path, &part, 1));
     }
-    snprintf(path, sizeof path, "%s/f.####.exr", directory);
+    snprintf(path, sizeof path, "%s/f.####.exr", job_directory);
     options.raster = &r;
     options.max_memory_bytes = (size_t)1 << 30;
     weft_status status = wf_measure(path, &options, &figures, &err);
     if (status) print_message("%s\n", err.text);
     assert_int_equal(status, WEFT_OK);
-    snprintf(path, sizeof path, "rm %s/f.*", directory);
+    snprintf(path, sizeof path, "rm %s/f.*", job_directory);
     assert_int_equal(system(path), 0);
     return figures;
 }
@@ -312,5 +299,5 @@ int main(void) {
         cmocka_unit_test(edges_that_drift),
         cmocka_unit_test(other_edges),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);
 }

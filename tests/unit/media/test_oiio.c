@@ -44,18 +44,6 @@ static const char *at(const char *name) {
     return path;
 }
 
-/* Runs oiiotool in the directory; skips the test where there is none. */
-static void oiiotool(const char *arguments) {
-    char command[1024];
-    if (system("command -v oiiotool >/dev/null")) {
-        print_message("skipped: no oiiotool\n");
-        skip();
-    }
-    snprintf(command, sizeof command, "cd %s && oiiotool %s >log 2>&1", job_directory,
-             arguments);
-    if (system(command)) fail_msg("oiiotool %s", arguments);
-}
-
 /* ---- Pictures ---- */
 
 typedef struct picture {
@@ -231,7 +219,7 @@ static void files_of_others_cut_short(void **state) {
     make("8.tif", "tiff", 8), make("16.tif", "tiff", 16);
     make("8.png", "png", 8), make("32.exr", "openexr", 32);
     for (size_t i = 0; i < sizeof arguments / sizeof *arguments; i++) {
-        oiiotool(arguments[i]);
+        job_oiiotool(arguments[i]);
         check_cuts(strstr(arguments[i], "other"));
     }
 }
@@ -327,7 +315,7 @@ static void parts_that_are_absent(void **state) {
 static void pictures_that_lie_on_their_side(void **state) {
     (void)state;
     make("8.tif", "tiff", 8);
-    oiiotool("8.tif --orientation 6 -o turned.tif");
+    job_oiiotool("8.tif --orientation 6 -o turned.tif");
     refused("turned.tif", MEMORY, "orientation is 6");
 }
 
@@ -394,8 +382,8 @@ static void dwa_is_what_other_readers_see(void **state) {
         char arguments[128];
         wf_image_info dwa_info, plain_info;
         snprintf(arguments, sizeof arguments, "zip.exr --compression %s -o dwa.exr", kinds[i]);
-        oiiotool(arguments);
-        oiiotool("dwa.exr --compression none -o plain.exr");
+        job_oiiotool(arguments);
+        job_oiiotool("dwa.exr --compression none -o plain.exr");
         float *dwa = source_rows("dwa.exr", &dwa_info),
               *plain = source_rows("plain.exr", &plain_info);
         assert_memory_equal(&dwa_info.data, &part.data, sizeof part.data);

@@ -12,6 +12,7 @@
 #include <jansson.h>
 
 #include "convert/read/source.h"
+#include "tests/unit/support/dice.h"
 #include "tests/unit/support/exr_write.h"
 #include "tests/unit/support/jobs.h"
 #include "tests/unit/support/sizes.h"
@@ -22,16 +23,10 @@ enum { WIDTH = 8, LINES = 12, MOST = 4096 };
 
 /* The plan of the options "name=value ..", as JSON; json_decref. */
 static json_t *plan_of(const char *options) {
-    char words[512];
     const char *text;
     weft_error err = {""};
     weft_job *job = weft_job_new();
-    snprintf(words, sizeof words, "%s", options);
-    for (char *word = strtok(words, " "); word; word = strtok(NULL, " ")) {
-        char *value = strchr(word, '=');
-        *value++ = '\0';
-        if (weft_job_set(job, word, value, &err)) fail_msg("%s", err.text);
-    }
+    if (job_set(job, options, &err)) fail_msg("%s", err.text);
     if (weft_job_plan(job, "json", &text, &err)) fail_msg("%s: %s", options, err.text);
     json_t *plan = json_loads(text, 0, NULL);
     assert_non_null(plan);
@@ -40,16 +35,10 @@ static json_t *plan_of(const char *options) {
 }
 
 static void refused(const char *options, const char *word) {
-    char words[512];
     const char *text;
     weft_error err = {""};
     weft_job *job = weft_job_new();
-    snprintf(words, sizeof words, "%s", options);
-    for (char *at = strtok(words, " "); at; at = strtok(NULL, " ")) {
-        char *value = strchr(at, '=');
-        *value++ = '\0';
-        assert_int_equal(weft_job_set(job, at, value, &err), WEFT_OK);
-    }
+    assert_int_equal(job_set(job, options, &err), WEFT_OK);
     assert_int_equal(weft_job_plan(job, "json", &text, &err), WEFT_USAGE);
     assert_null(text);
     if (!strstr(err.text, word)) fail_msg("'%s' does not say '%s'", err.text, word);
@@ -111,12 +100,6 @@ static void keep(const int64_t *numbers, int planned, int count) {
 }
 
 /* ---- The same video ---- */
-
-static unsigned dice_state = 1;
-static int dice(int sides) {
-    dice_state = dice_state * 1103515245u + 12345u;
-    return (int)((dice_state >> 16) % (unsigned)sides);
-}
 
 static const char *pick(const char *const *words, int count) {
     return words[dice(count)];

@@ -14,6 +14,7 @@
 #include "convert/read/exr/decode.h"
 #include "convert/read/exr/half.h"
 #include "tests/unit/support/exr_write.h"
+#include "tests/unit/support/jobs.h"
 #include "tests/unit/support/sizes.h"
 
 /* ---- Contents ---- */
@@ -251,34 +252,9 @@ static void every_compression_is_as_the_library_has_it(void **state) {
 
 /* ---- Files of the other writer ---- */
 
-static char folder[64]; /* that they are made in */
-
-static int make_folder(void **state) {
-    (void)state;
-    strcpy(folder, "/tmp/weft-chunks-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-    char command[128];
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
-}
-
-static void oiiotool(const char *arguments) {
-    char command[1024];
-    if (system("command -v oiiotool >/dev/null")) {
-        print_message("skipped: no oiiotool\n");
-        skip();
-    }
-    snprintf(command, sizeof command, "cd %s && oiiotool %s >log 2>&1", folder, arguments);
-    if (system(command)) fail_msg("oiiotool %s", arguments);
-}
-
 static const char *at(const char *name) {
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    static char path[512];
+    job_path(path, name);
     return path;
 }
 
@@ -300,7 +276,7 @@ static void other_files_are_as_the_library_has_them(void **state) {
                  "--pattern fill:topleft=1,0,0:topright=0,2,0:bottomleft=0,0,.5 201x131 3 "
                  "--noise:type=salt:value=1:portion=.03 %s",
                  made[i]);
-        oiiotool(arguments);
+        job_oiiotool(arguments);
         assert_true(compare_file(at("a.exr")) > 0);
     }
 }
@@ -451,8 +427,8 @@ static void dwa_is_as_the_library_has_it(void **state) {
         assert_true(exr_write(at("in.exr"), &part, 1));
         snprintf(arguments, sizeof arguments, "in.exr %s %s -o dwa.exr",
                  named ? "" : "-d half --ch R=a,G=b,B=c,A=d", kind);
-        oiiotool(arguments);
-        oiiotool("dwa.exr --compression none -o plain.exr");
+        job_oiiotool(arguments);
+        job_oiiotool("dwa.exr --compression none -o plain.exr");
         compared += compare_dwa();
     }
     assert_true(compared > 10);
@@ -538,5 +514,5 @@ int main(void) {
         cmocka_unit_test(dwa_is_as_the_library_has_it),
         cmocka_unit_test(even_chroma_under_dwa),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);
 }

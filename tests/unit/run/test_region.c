@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "convert/read/source.h"
+#include "tests/unit/support/dice.h"
 #include "tests/unit/support/exr_write.h"
 #include "tests/unit/support/jobs.h"
 #include "tests/unit/support/sizes.h"
@@ -26,12 +27,6 @@ typedef struct shot {
     int display_x, display_y; /* of the display window's corner */
     int one;                  /* the file being written */
 } shot;
-
-static unsigned dice_state = 1;
-static int dice(int sides) {
-    dice_state = dice_state * 1103515245u + 12345u;
-    return (int)((dice_state >> 16) % (unsigned)sides);
-}
 
 static float value_at(int k, int x, int y) {
     uint32_t h = (uint32_t)(k * 7919 + x * 1299709 + y * 31 + 11);

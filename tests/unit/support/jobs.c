@@ -32,25 +32,41 @@ void job_path(char path[512], const char *name) {
     snprintf(path, 512, "%s/%s", job_directory, name);
 }
 
-/* Runs in.####.exr -> output with the options "name=value ..". */
-weft_status job_run(const char *options, const char *output, char report[JOB_REPORT],
-                    weft_error *err) {
-    char path[512], words[512];
-    weft_job *job = weft_job_new();
-    assert_non_null(job);
-    job_path(path, "in.####.exr");
-    assert_int_equal(weft_job_add_input(job, path, err), WEFT_OK);
-    job_path(path, output);
-    assert_int_equal(weft_job_set_output(job, path, err), WEFT_OK);
-    snprintf(words, sizeof words, "%s", options);
+weft_status job_set(weft_job *job, const char *options, weft_error *err) {
+    char words[512], *rest = NULL;
     weft_status status = WEFT_OK;
-    char *rest = NULL;
+    snprintf(words, sizeof words, "%s", options);
     for (char *word = strtok_r(words, " ", &rest); word && !status;
          word = strtok_r(NULL, " ", &rest)) {
         char *value = strchr(word, '=');
         if (value) *value++ = '\0';
         status = weft_job_set(job, word, value, err);
     }
+    return status;
+}
+
+void job_oiiotool(const char *arguments) {
+    char command[1024];
+    if (system("command -v oiiotool >/dev/null")) {
+        print_message("skipped: no oiiotool\n");
+        skip();
+    }
+    snprintf(command, sizeof command, "cd %s && oiiotool %s >log 2>&1", job_directory,
+             arguments);
+    if (system(command)) fail_msg("oiiotool %s", arguments);
+}
+
+/* Runs in.####.exr -> output with the options "name=value ..". */
+weft_status job_run(const char *options, const char *output, char report[JOB_REPORT],
+                    weft_error *err) {
+    char path[512];
+    weft_job *job = weft_job_new();
+    assert_non_null(job);
+    job_path(path, "in.####.exr");
+    assert_int_equal(weft_job_add_input(job, path, err), WEFT_OK);
+    job_path(path, output);
+    assert_int_equal(weft_job_set_output(job, path, err), WEFT_OK);
+    weft_status status = job_set(job, options, err);
     if (!status) status = weft_job_run(job, err);
     if (report) snprintf(report, JOB_REPORT, "%s", weft_job_report(job));
     weft_job_free(job);

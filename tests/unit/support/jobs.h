@@ -20,6 +20,12 @@ void job_clean(void);
 /* DIRECTORY/name. */
 void job_path(char path[512], const char *name);
 
+/* Sets the options "name=value flag .." in their order, up to one that will not do. */
+weft_status job_set(weft_job *job, const char *options, weft_error *err);
+
+/* Runs oiiotool in the directory; skips the test where there is none. */
+void job_oiiotool(const char *arguments);
+
 /* Converts in.####.exr -> output with the options "name=value flag ..". report (if not NULL)
  * gets the JSON. */
 weft_status job_run(const char *options, const char *output, char report[JOB_REPORT],

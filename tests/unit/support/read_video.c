@@ -1,9 +1,32 @@
 /* A few pictures of a video, and all rows of light of them: for fuzz targets. */
 #include "tests/unit/support/read_video.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "convert/video/light.h"
+
+weft_status open_video_bytes(video_bytes *b, const char *name, const uint8_t *data, size_t size,
+                             weft_error *err) {
+    int ways = size ? data[size - 1] : 0;
+    const wf_video_options options = {.max_memory_bytes = (size_t)16 << 20,
+                                      .want_times = true,
+                                      .codes_only = true,
+                                      .mends = ways & 1,
+                                      .want_alpha = ways & 2};
+    char path[64];
+    *b = (video_bytes){.descriptor = memfd_create(name, 0), .mends = options.mends};
+    if (b->descriptor < 0 || write(b->descriptor, data, size) != (ssize_t)size) abort();
+    snprintf(path, sizeof path, "/proc/self/fd/%d", b->descriptor);
+    return wf_video_open(path, &options, &b->video, err);
+}
+
+void close_video_bytes(video_bytes *b) {
+    wf_video_close(b->video);
+    close(b->descriptor);
+}
 
 static void make_rows(const wf_light *light, const wf_video_info *info, void *const plane[3]) {
     size_t width = (size_t)info->width_px;
