@@ -39,27 +39,32 @@ def spread(values, step, weights, first):
     return out
 
 
+DECAY = [FADE ** ((k + 0.5) / ACROSS) for k in range(3 * ACROSS)]
+REACH = 2 * DOWN
+GLOW = [math.exp(-0.5 * (k / DOWN / SPOT) ** 2) for k in range(-REACH, REACH + 1)]
+
+
+def lit(rows, across):
+    """Light by line, DOWN places each, from impulses in rows, each spread by `across`: (places a step,
+    weights, how far before it they begin)."""
+    wide = [spread(row, *across) for row in rows]
+    return [list(row) for row in zip(*(spread(column, DOWN, GLOW, -REACH) for column in zip(*wide)))]
+
+
 def displayed(rows):
     """The light of a tube in height and time, DOWN places a line and ACROSS a field: every line is a spot
     that lights up when it is drawn and fades."""
-    decay = [FADE ** ((k + 0.5) / ACROSS) for k in range(3 * ACROSS)]
-    reach = 2 * DOWN
-    spot = [math.exp(-0.5 * (k / DOWN / SPOT) ** 2) for k in range(-reach, reach + 1)]
-    wide = [spread(row, ACROSS, decay, 0) for row in rows]
-    return [list(row) for row in zip(*(spread(column, DOWN, spot, -reach) for column in zip(*wide)))]
+    return lit(rows, (ACROSS, DECAY, 0))
+
+
+def spots(picture):
+    """The light of a still picture on a tube, DOWN places a pixel and a line."""
+    return lit(picture, (DOWN, GLOW, -REACH))
 
 
 def shown(rows, xs, ys):
     """The spectrum of what a display makes of lines by fields; axes in cycles a field and a line."""
     return spectrum(displayed(rows), [x / ACROSS for x in xs], [y / DOWN for y in ys])
-
-
-def spots(picture):
-    """The light of a still picture on a tube, DOWN places a pixel and a line."""
-    reach = 2 * DOWN
-    spot = [math.exp(-0.5 * (k / DOWN / SPOT) ** 2) for k in range(-reach, reach + 1)]
-    wide = [spread(row, DOWN, spot, -reach) for row in picture]
-    return [list(row) for row in zip(*(spread(column, DOWN, spot, -reach) for column in zip(*wide)))]
 
 
 # ---- Looking for a pattern ----
@@ -73,17 +78,13 @@ def peak(levels, xs, ys, center, reach):
 def power(levels, xs, ys, center, directions, reach):
     """The mean power along rays that start from center, either way, at distances within reach."""
     dx, dy = xs[1] - xs[0], ys[1] - ys[0]
-    total = count = 0
+    found = []
     for ux, uy in directions:
-        for k in range(13):
-            for r in (reach[0] + (reach[1] - reach[0]) * k / 12,):
-                for sign in (-r, r):
-                    i = round((center[0] + sign * ux - xs[0]) / dx)
-                    j = round((center[1] + sign * uy - ys[0]) / dy)
-                    if 0 <= i < len(xs) and 0 <= j < len(ys):
-                        total += levels[j][i] ** 2
-                        count += 1
-    return total / count if count else 0.0
+        for r in steps(*reach, 13) + steps(-reach[0], -reach[1], 13):
+            i, j = round((center[0] + r * ux - xs[0]) / dx), round((center[1] + r * uy - ys[0]) / dy)
+            if 0 <= i < len(xs) and 0 <= j < len(ys):
+                found.append(levels[j][i] ** 2)
+    return mean(found) if found else 0.0
 
 
 class Pattern:

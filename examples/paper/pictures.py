@@ -13,19 +13,17 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def png(rows, color=False, palette=None, filtered=False):
-    """A PNG of 8 bits. Rows are bytes: gray, R G B, or indices of a palette of R G B triples."""
+def png(rows, color=False, filtered=False):
+    """A PNG of 8 bits. Rows are bytes: gray or R G B."""
     step = 3 if color else 1
-    kind = 2 if color else 3 if palette else 0
+    kind = 2 if color else 0
     head = struct.pack(">IIBBBBB", len(rows[0]) // step, len(rows), 8, kind, 0, 0, 0)
     if filtered:
         body = b"".join(smallest(above, row, step) for above, row in zip([bytes(len(rows[0]))] + rows, rows))
     else:
         body = b"".join(b"\0" + row for row in rows)
-    parts = [b"\x89PNG\r\n\x1a\n", chunk(b"IHDR", head)]
-    if palette:
-        parts.append(chunk(b"PLTE", bytes(value for entry in palette for value in entry)))
-    return b"".join(parts + [chunk(b"IDAT", zlib.compress(body, 9)), chunk(b"IEND", b"")])
+    return b"".join([b"\x89PNG\r\n\x1a\n", chunk(b"IHDR", head), chunk(b"IDAT", zlib.compress(body, 9)),
+                     chunk(b"IEND", b"")])
 
 
 def smallest(above, row, step):
@@ -97,26 +95,6 @@ def display_bytes(rows, top=1.0):
     scale = 1 / top if top else 0
     return [bytes(min(255, int(255 * max(0.0, value * scale) ** (1 / GAMMA) + 0.5))
                   for value in row) for row in rows]
-
-
-# ---- Heat maps ----
-
-def ramp():
-    """256 colors from near black over violet and orange to pale yellow."""
-    stops = [(0, (10, 8, 28)), (70, (74, 24, 110)), (140, (190, 54, 84)), (205, (249, 142, 40)),
-             (255, (252, 250, 190))]
-    colors = []
-    for (a, low), (b, high) in zip(stops, stops[1:]):
-        colors += [tuple(round(p + (q - p) * (k - a) / (b - a)) for p, q in zip(low, high))
-                   for k in range(a, b)]
-    return colors + [stops[-1][1]]
-
-
-def heat(rows, low, high):
-    """A PNG of numbers between low and high."""
-    scale = 255 / (high - low)
-    return png([bytes(min(255, max(0, int((value - low) * scale))) for value in row)
-                for row in rows], palette=ramp())
 
 
 # ---- EXR, for weft to read ----
