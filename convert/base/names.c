@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <xxhash.h>
 
 #include "convert/base/range.h"
@@ -39,6 +40,13 @@ const char *wf_names_next(const wf_names *names, const char *name) {
     return next < names->text + names->bytes ? next : NULL;
 }
 
+/* Some file systems do not tell what an entry is, and links may lead to folders. */
+static bool is_folder(DIR *dir, const struct dirent *entry) {
+    struct stat about;
+    if (entry->d_type != DT_UNKNOWN && entry->d_type != DT_LNK) return entry->d_type == DT_DIR;
+    return !fstatat(dirfd(dir), entry->d_name, &about, 0) && S_ISDIR(about.st_mode);
+}
+
 weft_status wf_names_read(const char *directory, wf_names *out, weft_error *err) {
     DIR *dir = opendir(directory);
     if (!dir)
@@ -47,9 +55,7 @@ weft_status wf_names_read(const char *directory, wf_names *out, weft_error *err)
     weft_status status = WEFT_OK;
     const struct dirent *entry;
     for (errno = 0; !status && (entry = readdir(dir)); errno = 0) {
-        bool skipped = entry->d_type == DT_DIR || !strcmp(entry->d_name, ".") ||
-                       !strcmp(entry->d_name, "..");
-        if (!skipped && !wf_names_add(out, entry->d_name))
+        if (!is_folder(dir, entry) && !wf_names_add(out, entry->d_name))
             status = wf_fail(err, WEFT_NO_MEMORY, "%.300s: out of memory after %zu names",
                              directory, out->count);
     }

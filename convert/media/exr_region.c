@@ -16,6 +16,7 @@ typedef struct attribute {
 typedef struct header {
     wf_box display, data, region;
     bool has_region, is_box;
+    bool is_far;             /* a window or region reaches beyond what pixels are counted to */
     char text[LONGEST_TEXT]; /* of a region that is text */
 } header;
 
@@ -51,14 +52,16 @@ static bool is_place(int64_t n) {
     return n > -(INT64_C(1) << 29) && n < INT64_C(1) << 29;
 }
 
-static bool read_box(FILE *file, wf_box *box) {
+/* One that is too far is read over, so that what stands behind it is seen. */
+static bool read_box(FILE *file, wf_box *box, bool *is_far) {
     int32_t n[4];
     for (int i = 0; i < 4; i++) {
         uint32_t bits;
         if (!read_number(file, &bits)) return false;
         n[i] = (int32_t)bits;
-        if (!is_place(n[i])) return false;
     }
+    for (int i = 0; i < 4; i++)
+        if (!is_place(n[i])) return *is_far = true;
     *box = (wf_box){n[0], n[1], n[2] + 1, n[3] + 1};
     return true;
 }
@@ -76,13 +79,15 @@ static bool skip(FILE *file, uint32_t size) {
 static bool take_region(FILE *file, const attribute *a, header *h) {
     h->has_region = true;
     h->is_box = is(a, a->name, "box2i") && a->size == 16;
-    if (h->is_box) return read_box(file, &h->region);
+    if (h->is_box) return read_box(file, &h->region, &h->is_far);
     return is(a, a->name, "string") ? read_text(file, a->size, h->text) : skip(file, a->size);
 }
 
 static bool take(FILE *file, const attribute *a, header *h) {
-    if (is(a, "displayWindow", "box2i") && a->size == 16) return read_box(file, &h->display);
-    if (is(a, "dataWindow", "box2i") && a->size == 16) return read_box(file, &h->data);
+    if (is(a, "displayWindow", "box2i") && a->size == 16)
+        return read_box(file, &h->display, &h->is_far);
+    if (is(a, "dataWindow", "box2i") && a->size == 16)
+        return read_box(file, &h->data, &h->is_far);
     if (!strcmp(a->name, "weft:region")) return take_region(file, a, h);
     return skip(file, a->size);
 }
@@ -132,7 +137,7 @@ weft_status wf_exr_region(const char *path, wf_box *region, bool *has, weft_erro
     read_header(file, &h);
     fclose(file);
     if (!h.has_region) return WEFT_OK;
-    if (!settle(&h) || !meets(&h))
+    if (h.is_far || !settle(&h) || !meets(&h))
         return wf_fail(
             err, WEFT_FAILED,
             "%s: its weft:region is no rectangle of its pixels; it is a box2i, or text "

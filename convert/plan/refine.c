@@ -2,15 +2,14 @@
  * which rectangles of others the estimates want. */
 #include "convert/plan/refine.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "convert/base/names.h"
+#include "convert/base/range.h"
 #include "convert/media/exr_region.h"
+#include "convert/read/rate.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 
@@ -31,27 +30,21 @@ void wf_refine_want(const wf_refining *r, wf_refine_slot *slot, wf_box box) {
 
 /* ---- What is there ---- */
 
-/* Some file systems do not tell what an entry is. */
-static bool is_folder(DIR *directory, const struct dirent *entry) {
-    struct stat about;
-    if (entry->d_type != DT_UNKNOWN) return entry->d_type == DT_DIR;
-    return !fstatat(dirfd(directory), entry->d_name, &about, 0) && S_ISDIR(about.st_mode);
-}
-
-/* Whether a folder holds no file; false with the reason where it is none. */
+/* Whether a folder holds no picture; what else lies there, such as a job, is nobody's concern.
+ */
 static weft_status look_into(const char *folder, bool *empty, weft_error *err) {
-    DIR *directory = opendir(folder);
+    wf_names names = {0};
+    weft_error why;
+    weft_status status = wf_names_read(folder, &names, &why);
     *empty = true;
-    if (!directory)
-        return wf_fail(
-            err, WEFT_FAILED,
-            "--refine %.500s: %s; give the folder that the subframes are rendered into, "
-            "which may be empty",
-            folder, strerror(errno));
-    for (const struct dirent *entry; (entry = readdir(directory));)
-        if (entry->d_name[0] != '.' && !is_folder(directory, entry)) *empty = false;
-    closedir(directory);
-    return WEFT_OK;
+    for (const char *name = NULL; (name = wf_names_next(&names, name));)
+        if (wf_name_is_picture(name)) *empty = false;
+    wf_names_free(&names);
+    if (!status) return WEFT_OK;
+    return wf_fail(err, status,
+                   "--refine %.600s; give the folder that the subframes are rendered into, "
+                   "which may be empty",
+                   why.text);
 }
 
 static weft_status check_size(const wf_plan *plan, const char *path, weft_error *err) {
@@ -70,22 +63,48 @@ static weft_status check_size(const wf_plan *plan, const char *path, weft_error 
         path, width, lines, plan->width_px, plan->lines, width, lines);
 }
 
-static weft_status take_file(const wf_plan *plan, wf_refine_slot *slot, const char *path,
-                             weft_error *err) {
+/* Whether a file's weft:time, where it has one, is that of its number in the plan. */
+static weft_status is_of_plan(const wf_plan *plan, const wf_subframe_ref *ref, bool *has_time,
+                              bool *fits, weft_error *err) {
+    wf_rational time_s, wished = wf_ratio_div(ref->number, plan->rate);
+    weft_status status = wf_source_time(ref->path, ref->part, &time_s, err);
+    *has_time = !status && wf_ratio_given(time_s);
+    *fits = !*has_time || !wf_number_order(time_s, wished);
+    return status;
+}
+
+static weft_status check_time(const wf_plan *plan, const wf_subframe_ref *ref,
+                              weft_error *err) {
+    bool has_time, fits;
+    char rate[48];
+    weft_status status = is_of_plan(plan, ref, &has_time, &fits, err);
+    if (status || fits) return status;
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: its weft:time is not that of its number at %s subframes a second; "
+                   "give the --subframe-rate that it was planned with, or another folder",
+                   ref->path, wf_rate_text(plan->rate, rate));
+}
+
+static weft_status take_file(const wf_plan *plan, wf_refine_slot *slot,
+                             const wf_subframe_ref *ref, weft_error *err) {
     bool has;
-    weft_status status = check_size(plan, path, err);
-    if (!status) status = wf_exr_region(path, &slot->region, &has, err);
+    weft_status status = check_size(plan, ref->path, err);
+    if (!status) status = check_time(plan, ref, err);
+    if (!status) status = wf_exr_region(ref->path, &slot->region, &has, err);
     if (status) return status;
-    slot->path = strdup(path);
-    if (!slot->path) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", path);
+    slot->path = strdup(ref->path);
+    if (!slot->path) return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", ref->path);
     slot->whole = !has || wf_box_contains(slot->region, whole_of(plan));
     if (slot->whole) slot->region = whole_of(plan);
     return WEFT_OK;
 }
 
+/* Files that are of other frames of the same shot say so by their times. */
 static weft_status refuse_foreign(const wf_plan *plan, const wf_sequence *found,
                                   weft_error *err) {
-    (void)found;
+    bool has_time, fits;
+    weft_status status = is_of_plan(plan, &found->refs[0], &has_time, &fits, err);
+    if (status || (has_time && fits)) return status;
     return wf_fail(
         err, WEFT_FAILED,
         "--refine %.500s: none of its files has a number of this plan, which are %" PRId64
@@ -104,22 +123,19 @@ static weft_status take_files(wf_refining *r, const wf_sequence *found, weft_err
         if (slot == r->slots) break;
         if (!ref->path || ref->number.den != 1 || r->slot[slot].number != ref->number.num)
             continue;
-        status = take_file(r->plan, &r->slot[slot], ref->path, err);
+        status = take_file(r->plan, &r->slot[slot], ref, err);
         taken++;
     }
     return status || taken ? status : refuse_foreign(r->plan, found, err);
 }
 
 static weft_status find_files(wf_refining *r, weft_error *err) {
-    const wf_plan *plan = r->plan;
-    char *inputs[] = {plan->job.refine}, frames[64];
+    char *inputs[] = {r->plan->job.refine};
     bool empty;
     wf_sequence found = {0};
-    weft_status status = look_into(plan->job.refine, &empty, err);
+    weft_status status = look_into(r->plan->job.refine, &empty, err);
     if (status || empty) return status;
-    snprintf(frames, sizeof frames, "%" PRId64 "-%" PRId64, plan->subframe[0].number,
-             plan->subframe[plan->count - 1].number);
-    status = wf_sequence_expand(inputs, 1, frames, &found, err);
+    status = wf_sequence_expand(inputs, 1, NULL, &found, err);
     if (!status) status = take_files(r, &found, err);
     wf_sequence_free(&found);
     return status;
