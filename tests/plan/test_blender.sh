@@ -1,49 +1,20 @@
 #!/bin/bash
 # The Blender add-on, without a window: what it renders is what the plan says, of every engine; the video is that of all
 # subframes; ranges of farms fit together; the scene is put back; and what goes wrong is told.
-. "$WEFT_SOURCE/tests/program/script.sh"
-not_sanitized never
-command -v blender >/dev/null || skip "no blender (tests/run.sh all installs it)"
-needs python3
-# Blender has a Python of its own, which must not meet that of the tests.
-unset PYTHONPATH PYTHONHOME
-export PYTHONDONTWRITEBYTECODE=1 HOME=$work
-
-cat >make.py <<'END'
-import bpy
-scene, cube = bpy.context.scene, bpy.data.objects["Cube"]
+. "$(dirname "$0")/blend.sh"
+make_shot "
 scene.frame_start, scene.frame_end = 11, 13
 scene.render.fps, scene.render.fps_base = 24, 1.001
-scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 4, False
 scene.cycles.seed = 3
 for frame, x in (11, -2), (13, 2):
     cube.location.x = x
-    cube.keyframe_insert("location", frame=frame)
+    cube.keyframe_insert('location', frame=frame)
 camera = scene.camera
 for frame, z in (11, 4.9), (13, 5.3):
     camera.location.z = z
-    camera.keyframe_insert("location", frame=frame)
+    camera.keyframe_insert('location', frame=frame)
 bpy.ops.object.text_add(location=(0, -2, 1))
-bpy.context.object.data.body = "NEWS"
-bpy.ops.wm.save_as_mainfile(filepath="%s/shot.blend" % __import__("os").getcwd())
-END
-blender -b --factory-startup -P make.py >blender.log 2>&1
-[ -s shot.blend ] || { cat blender.log; skip "this blender saves nothing"; }
-
-# blend PYTHON: runs the add-on in the shot; what it prints is in `said`.
-cat >head.py <<'END'
-import sys, os
-sys.path.append(os.environ["WEFT_SOURCE"] + "/examples/blender")
-import bpy
-import interlaced_video as v
-v.register()
-s = bpy.context.scene
-END
-blend()
-{
-    { cat head.py; printf '%s\n' "$1"; } >run.py
-    timeout 250 blender -b shot.blend --python-exit-code 9 -P run.py >said 2>&1
-}
+bpy.context.object.data.body = 'NEWS'"
 small="raster='96x64@25i,tff', subframes=4, shutter='1/2', oversampling=1"
 
 check "a video" blend "v.run($small, output='//shot.y4m')"
@@ -56,7 +27,6 @@ check "nothing was rendered" bash -c "! grep -q '^subframe ' said"
 check "the video is the same" cmp shot.y4m again.y4m
 
 check "all subframes" blend "
-from interlaced_video import program, shot
 s.interlaced_video.folder, s.interlaced_video.output = '//every', '//every.y4m'
 for name, value in dict($small).items(): setattr(s.interlaced_video, name, value)
 all_of = shot.Shot(s, s.interlaced_video, program.find())
@@ -94,7 +64,6 @@ done
 # ---- What goes wrong ----
 
 touch file
-wrong() { ! blend "v.run($small, $1)" && says "$2"; }
 check "a folder that cannot be" wrong "folder='//file/sub'" "file/sub: Not a directory; choose another folder"
 check "a range that is not there" wrong "first=7" "frames 7 to 2 of video are asked for, and the scene's range has 0 to 2"
 check "a shutter that is none" wrong "shutter='wide'" "wide"

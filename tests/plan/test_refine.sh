@@ -50,6 +50,36 @@ cp other/shot.0000.exr other/shot.0003.exr half
 head -c 3000 other/shot.0008.exr >half/shot.0008.exr
 check "a file that is half written" fails "shot.0008.exr.*being written" plan half --error 0.01
 rm half/shot.0008.exr
+stamp() { python3 "$WEFT_SOURCE/examples/stamp_exr.py" "$@"; }
+mkdir rates later
+for k in 0 3; do cp other/shot.000$k.exr rates; stamp rates/shot.000$k.exr --time $k/960 --region 0,0,96,64; done
+check "of another rate" fails "shot.0003.exr: its weft:time is not that of its number at 480 subframes a second; give the --subframe-rate" \
+    plan rates --error 0.01
+cp other/shot.0008.exr later/shot.0800.exr
+stamp later/shot.0800.exr --time 800/480
+check "of later frames of the same shot" exits 0 plan later --error 0.01 --format json
+check "which want the first pass" value "len(d['subframes']) == 6"
+echo '{}' >empty/job.json
+check "a folder that holds a job alone" exits 0 plan empty --error 0.01 --format json
+check "is empty too" value "len(d['subframes']) == 6"
+head -c 2000 other/shot.0008.exr >cut.exr
+check "a stamp on a file that is cut off" exits 1 stamp cut.exr --region 0,0,9,9
+check "is refused" says "cut.exr: it is cut off, or not finished"
+check "and on none" exits 1 stamp said --time 1/2
+check "as well" says "said: "
+# A window beyond all pixels does not hide the region behind it.
+mkdir far
+for k in 0 8; do cp other/shot.000$k.exr far; done
+stamp far/shot.0008.exr --region 0,0,9,9
+python3 - <<'END'
+data = bytearray(open("far/shot.0008.exr", "rb").read())
+at = data.index(b"displayWindow\0box2i\0") + len(b"displayWindow\0box2i\0") + 4
+data[at + 8:at + 12] = (2 ** 30).to_bytes(4, "little")
+open("far/shot.0008.exr", "wb").write(data)
+END
+check "a window that is too far" exits 1 weft convert far --subframe-rate 480 --raster 96x64@30i,tff -o far.y4m
+check "is told" says "shot.0008.exr"
+
 check "a script of rectangles" refuses "stamp them with weft:region" plan --raster 96x64@30i,tff --frames 0-1 \
     --subframe-rate 480 --refine half --error 0.01 --format blender
 check "the first pass, half done" exits 0 plan half --error 0.01 --format json

@@ -6,8 +6,8 @@ from .program import Failed
 from .settings import program_of
 from .shot import Shot
 
-KEYS = ("raster", "aperture", "shutter", "subframes", "oversampling", "divide_samples", "alpha", "first", "last",
-        "folder", "output", "codec")
+KEYS = ("raster", "aperture", "shutter", "subframes", "error", "oversampling", "divide_samples", "alpha", "first",
+        "last", "folder", "output", "codec")
 
 
 class RENDER_OT_interlaced_video(bpy.types.Operator):
@@ -25,22 +25,26 @@ class RENDER_OT_interlaced_video(bpy.types.Operator):
         self.plan = self.shot.plan()
         self.shot.prepare()
         self.shot.write_job(self.plan)
-        self.left = self.shot.missing(self.plan)
-        self.count = len(self.left)
+        self.left = self.shot.wanted(self.plan)
+        self.count, self.checked = len(self.left), False
 
     def step(self):
         """The next subframe; False when it was stopped."""
         if not self.shot.render(self.left[0]):
             return False
         self.left.pop(0)
-        if self.convert and len(self.left) + 1 == self.count:
+        if self.convert and not self.checked:
             self.shot.check(self.plan)  # there is an input now
+            self.checked = True
+        if not self.left and self.shot.refines():
+            self.left = self.shot.wanted(self.plan)
+            self.count += len(self.left)
         return True
 
     def finish(self):
         if not self.convert:
             return f"{self.count} subframes rendered"
-        return f"{self.shot.convert(self.plan)} written, from {len(self.plan['subframes'])} subframes"
+        return f"{self.shot.convert(self.plan)} written, from {self.shot.told(self.plan)}"
 
     def execute(self, context):
         """Without a window: all in one go."""

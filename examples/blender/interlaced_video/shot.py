@@ -9,6 +9,7 @@ import bpy
 
 from . import program, scene
 from .program import Failed
+from .stamp_exr import stamp
 
 # Broadcast rates as people write them.
 RATES = {"23.976": Fraction(24000, 1001), "23.98": Fraction(24000, 1001), "29.97": Fraction(30000, 1001),
@@ -43,6 +44,11 @@ class Shot:
         self.folder = bpy.path.abspath(settings.folder)
         self.output = bpy.path.abspath(settings.output)
 
+    def told(self, plan):
+        """How many subframes there are, and how much of them."""
+        there = [self.path(s) for s in plan["subframes"] if os.path.exists(self.path(s))]
+        return f"{len(there)} subframes" + (f" of {len(plan['subframes'])}, most of them in part" if self.refines() else "")
+
     def seconds(self):
         """How long the scene's range of frames lasts."""
         fps = Fraction(self.scene.render.fps) / Fraction(self.scene.render.fps_base).limit_denominator(1001)
@@ -60,19 +66,32 @@ class Shot:
             raise Failed(f"frames {first} to {end} of video are asked for, and the scene's range has 0 to {last}")
         return first, end
 
-    def plan(self):
-        """What weft needs: numbers, times, size."""
+    def refines(self):
+        return self.settings.error > 0
+
+    def asked(self, *more):
+        """What `weft plan` answers."""
         first, last = self.frames()
         s = self.settings
-        words = ("plan", "--raster", s.raster, "--aperture", s.aperture, "--temporal-width", s.shutter,
-                 "--subframe-rate", self.subframe_rate, "--frames", f"{first}-{last}", "--format", "json")
-        found = program.asked(self.weft, *words)
-        if s.oversampling > 1:
-            size = "x".join(str(s.oversampling * n) for n in found["size"])
-            found = program.asked(self.weft, *words, "--size", size)
+        return program.asked(self.weft, "plan", "--raster", s.raster, "--aperture", s.aperture, "--temporal-width",
+                             s.shutter, "--subframe-rate", self.subframe_rate, "--frames", f"{first}-{last}",
+                             "--format", "json", *more)
+
+    def plan(self):
+        """What weft needs: numbers, times, size."""
+        found, over = self.asked(), self.settings.oversampling
+        if over > 1:
+            found = self.asked("--size", "x".join(str(over * n) for n in found["size"]))
         if not found["subframes"]:
             raise Failed("the plan has no subframes")
         return found
+
+    def wanted(self, plan):
+        """What is to be rendered now: all of the plan that is not there, or what the error still wants."""
+        if not self.refines():
+            return self.missing(plan)
+        size = "x".join(map(str, plan["size"]))
+        return self.asked("--size", size, "--refine", self.folder, "--error", f"{self.settings.error:.6g}")["subframes"]
 
     def place(self, subframe):
         """The frame of the scene, and the part of one, of a subframe's time."""
@@ -104,6 +123,7 @@ class Shot:
         path = self.path(subframe)
         self.scene.frame_set(frame, subframe=part)
         self.scene.render.filepath = path + ".part"
+        scene.show_only(self.scene, self.plan_size, subframe.get("region"))
         try:
             done = bpy.ops.render.render(write_still=True, scene=self.scene.name)
         except RuntimeError as error:
@@ -117,8 +137,20 @@ class Shot:
         if not os.path.getsize(path + ".part"):
             os.remove(path + ".part")
             raise Failed(f"{path}: nothing was written; is the disk full?")
-        os.replace(path + ".part", path)
+        self.finish(path, subframe)
         return True
+
+    def finish(self, path, subframe):
+        """Says in a file what part of it exists, and gives it its name."""
+        try:
+            if "region" in subframe:
+                stamp(path + ".part", subframe["time"], subframe["region"])
+            os.replace(path + ".part", path)
+        except (OSError, ValueError) as error:
+            for name in (path + ".part", path + ".part.part"):
+                if os.path.exists(name):
+                    os.remove(name)
+            raise Failed(f"{path}: {getattr(error, 'strerror', None) or error}; is the disk full?") from None
 
     def write_job(self, plan):
         """The job, beside the frames: `weft convert --job FOLDER/job.json` makes the video again."""
@@ -146,7 +178,7 @@ class Shot:
 
     def convert(self, plan):
         """The video, once all subframes are there."""
-        left = len(self.missing(plan))
+        left = len(self.wanted(plan))
         if left:
             raise Failed(f"{left} subframes are not there yet; render them first")
         program.run(self.weft, "convert", "--job", self.write_job(plan), "-q")
@@ -154,13 +186,17 @@ class Shot:
 
     def samples(self):
         """Samples a pixel of each subframe: the scene's own, divided by the subframes of a frame and by the
-        pixels that one of a finished frame becomes, so that the whole costs what one frame does."""
+        pixels that one of a finished frame becomes, so that the whole costs what one frame does. Where it is
+        refined, what stands still is seen by one subframe of a field alone, and only pixels share."""
         if not self.settings.divide_samples:
             return 0
         cycles = getattr(self.scene, "cycles", None)
         mine = cycles.samples if self.scene.render.engine == "CYCLES" and cycles else \
             self.scene.eevee.taa_render_samples
-        return max(1, round(mine / (2 * self.settings.subframes * self.settings.oversampling ** 2)))
+        shares = 1 if self.refines() else 2 * self.settings.subframes
+        return max(1, round(mine / (shares * self.settings.oversampling ** 2)))
 
     def prepared(self, plan):
-        return scene.prepared(self.scene, plan, self.settings.alpha, self.samples())
+        """The scene, ready. Noise that moves would be taken for motion where it is refined."""
+        self.plan_size = plan["size"]
+        return scene.prepared(self.scene, plan, self.settings.alpha, self.samples(), not self.refines())

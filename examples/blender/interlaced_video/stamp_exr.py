@@ -33,19 +33,36 @@ def chunks(found):
     if "tiles" in found:
         across, down, mode = struct.unpack("<IIB", found["tiles"][2])
         if mode & 15:
-            raise SystemExit("tiles of several levels are not for subframes")
+            raise ValueError("tiles of several levels are not for subframes")
         return -(-width // across) * -(-lines // down)
     rows = [1, 1, 1, 16, 32, 16, 32, 32, 32, 256][found["compression"][2][0]]
     return -(-lines // rows)
 
 
 def stamp(path, time=None, region=None):
+    """ValueError if it is no such file, OSError if it cannot be written."""
     with open(path, "rb") as file:
         data = file.read()
+    try:
+        made = stamped(data, time, region)
+    except (struct.error, IndexError, KeyError):
+        raise ValueError(f"{path}: its header is cut off or damaged") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    with open(path + ".part", "wb") as file:
+        file.write(made)
+    os.replace(path + ".part", path)
+
+
+def stamped(data, time, region):
+    """A file's bytes with the attributes."""
     magic, version = struct.unpack_from("<II", data)
     if magic != 20000630 or version & 0x1000:
-        raise SystemExit(f"{path}: no EXR of one part")
-    found, end = attributes(data)
+        raise ValueError("no EXR of one part")
+    try:
+        found, end = attributes(data)
+    except ValueError:
+        raise IndexError from None
     new = {}
     if time is not None:
         new["weft:time"] = (b"string", str(time).encode())
@@ -59,15 +76,13 @@ def stamp(path, time=None, region=None):
             header += data[first:last]
     for name, (kind, value) in new.items():
         header += name.encode() + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
-    if any(len(name) > 31 for name in new):
-        raise SystemExit("a long name needs another version of the header")
     header += b"\0"
     count, moved = chunks(found), len(header) - (end + 1)
     offsets = struct.unpack_from(f"<{count}Q", data, end + 1)
+    if not all(end < offset < len(data) for offset in offsets):
+        raise ValueError("it is cut off, or not finished")
     table = struct.pack(f"<{count}Q", *(offset + moved for offset in offsets))
-    with open(path + ".part", "wb") as file:
-        file.write(header + table + data[end + 1 + 8 * count:])
-    os.replace(path + ".part", path)
+    return header + table + data[end + 1 + 8 * count:]
 
 
 def main():
@@ -76,7 +91,10 @@ def main():
     parser.add_argument("--time", help="seconds, such as 3/400")
     parser.add_argument("--region", help="x0,y0,x1,y1", type=lambda text: tuple(map(int, text.split(","))))
     asked = parser.parse_args()
-    stamp(asked.file, asked.time, asked.region)
+    try:
+        stamp(asked.file, asked.time, asked.region)
+    except (ValueError, OSError) as error:
+        raise SystemExit(str(error)) from None
 
 
 if __name__ == "__main__":

@@ -1,0 +1,1 @@
+blender/interlaced_video/stamp_exr.py
