@@ -1,4 +1,6 @@
 """Render > Interlaced video: by plan, in steps that can be stopped, and without a window in one go."""
+import time
+
 import bpy
 
 from . import program
@@ -6,8 +8,8 @@ from .program import Failed
 from .settings import program_of
 from .shot import Shot
 
-KEYS = ("raster", "aperture", "shutter", "subframes", "error", "oversampling", "divide_samples", "alpha", "first",
-        "last", "folder", "output", "codec")
+KEYS = ("raster", "aperture", "shutter", "subframes", "error", "oversampling", "divide_samples", "alpha",
+        "as_seen", "first", "last", "folder", "output", "codec")
 
 
 class RENDER_OT_interlaced_video(bpy.types.Operator):
@@ -26,7 +28,7 @@ class RENDER_OT_interlaced_video(bpy.types.Operator):
         self.shot.prepare()
         self.shot.write_job(self.plan)
         self.left = self.shot.wanted(self.plan)
-        self.count, self.checked = len(self.left), False
+        self.count, self.checked, self.begun = len(self.left), False, time.monotonic()
 
     def step(self):
         """The next subframe; False when it was stopped."""
@@ -41,6 +43,13 @@ class RENDER_OT_interlaced_video(bpy.types.Operator):
             self.count += len(self.left)
         return True
 
+    def progress(self):
+        """Where it is, and how long what is known of takes: "subframe 3 of 200, 12 min left"."""
+        done = self.count - len(self.left)
+        left = (time.monotonic() - self.begun) / max(done, 1) * len(self.left)
+        told = f"{left:.0f} s" if left < 90 else f"{left / 60:.0f} min" if left < 5400 else f"{left / 3600:.1f} h"
+        return f"subframe {done} of {self.count}" + (f", {told} left" if done and self.left else "")
+
     def finish(self):
         if not self.convert:
             return f"{self.count} subframes rendered"
@@ -54,7 +63,7 @@ class RENDER_OT_interlaced_video(bpy.types.Operator):
                 while self.left:
                     if not self.step():
                         raise Failed("rendering was stopped; what was rendered is kept")
-                    print(f"subframe {self.count - len(self.left)} of {self.count}", flush=True)
+                    print(self.progress(), flush=True)
             self.report({"INFO"}, self.finish())
         except Failed as failed:
             self.report({"ERROR"}, str(failed))
@@ -95,8 +104,7 @@ class RENDER_OT_interlaced_video(bpy.types.Operator):
             if self.left and not self.step():
                 return self.end(context, "WARNING", "rendering was stopped; what was rendered is kept")
             context.window_manager.progress_update(self.count - len(self.left))
-            context.workspace.status_text_set(f"Interlaced video: subframe {self.count - len(self.left)} of "
-                                              f"{self.count}; Escape stops")
+            context.workspace.status_text_set(f"Interlaced video: {self.progress()}; Escape stops")
             return {"RUNNING_MODAL"} if self.left else self.end(context, "INFO", self.finish())
         except Failed as failed:
             return self.end(context, "ERROR", str(failed))

@@ -1,7 +1,7 @@
 """The panel among the output properties, and the entry of the Render menu."""
 import bpy
 
-ROWS = (("raster", "aperture", "shutter"), ("subframes", "error", "oversampling", "divide_samples", "alpha"),
+ROWS = (("raster", "aperture", "shutter"), ("subframes", "error", "oversampling", "divide_samples", "alpha", "as_seen"),
         ("first", "last"), ("folder", "output", "codec"))
 
 

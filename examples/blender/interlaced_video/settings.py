@@ -41,6 +41,9 @@ class InterlacedVideo(bpy.types.PropertyGroup):
     alpha: bpy.props.BoolProperty(
         name="Alpha", default=False, description="Renders the film transparent and keeps alpha, for outputs that "
         "hold it (prores-4444, ffv1, EXR)")
+    as_seen: bpy.props.BoolProperty(
+        name="As seen", default=True, description="Gives the video the scene's view transform, look and exposure, as "
+        "Blender's own videos have them; without, light up to white is shown as it is, and what is brighter is white")
     first: bpy.props.IntProperty(
         name="First", default=0, min=0, description="The first frame of video, from 0; a farm gives each machine a "
         "part of its own")

@@ -41,8 +41,14 @@ class Shot:
         self.scene, self.settings, self.weft = of, settings, weft
         self.rate = frame_rate(settings.raster)
         self.subframe_rate = 2 * self.rate * settings.subframes
-        self.folder = bpy.path.abspath(settings.folder)
-        self.output = bpy.path.abspath(settings.output)
+        self.folder, self.output = (self.placed(path) for path in (settings.folder, settings.output))
+
+    @staticmethod
+    def placed(path):
+        """Where a path leads; // is the folder of the .blend."""
+        if path.startswith("//") and not bpy.data.filepath:
+            raise Failed(f"{path} lies beside the .blend, which is not saved yet; save it, or give another place")
+        return os.path.abspath(bpy.path.abspath(path))
 
     def told(self, plan):
         """How many subframes there are, and how much of them."""
@@ -152,6 +158,19 @@ class Shot:
                     os.remove(name)
             raise Failed(f"{path}: {getattr(error, 'strerror', None) or error}; is the disk full?") from None
 
+    def view(self):
+        """Options that give light the look that Blender shows. Its plain views need none: weft has its own."""
+        view = self.scene.view_settings
+        options = {"exposure": f"{view.exposure:.6g}"} if view.exposure else {}
+        if view.view_transform in ("Standard", "Raw"):
+            return options
+        folder = bpy.utils.system_resource("DATAFILES", path="colormanagement") or ""
+        options.update({"ocio": os.environ.get("OCIO") or os.path.join(folder, "config.ocio"), "from": "scene_linear",
+                        "display": self.scene.display_settings.display_device, "view": view.view_transform})
+        if view.look not in ("", "None"):
+            options["look"] = view.look
+        return options
+
     def write_job(self, plan):
         """The job, beside the frames: `weft convert --job FOLDER/job.json` makes the video again."""
         s, (first, last) = self.settings, self.frames()
@@ -163,6 +182,8 @@ class Shot:
             job["alpha-out"] = True
         if s.codec:
             job["codec"] = s.codec
+        if s.as_seen:
+            job.update(self.view())
         path = os.path.join(self.folder, "job.json")
         try:
             with open(path + ".part", "w", encoding="utf-8") as file:
