@@ -138,19 +138,43 @@ static void fine_of_bytes(float *restrict signal, const uint8_t *restrict code, 
     for (size_t i = 0; i < count; i++) signal[i] = (float)((code[i] - zero) * per_code);
 }
 
-enum { FINE = 16 }; /* sums side by side */
+#define FINE_LANES (LANES / 2)
+enum { FINE_BESIDE = 4 }; /* vectors of sums */
+
+typedef double fine_lanes __attribute__((vector_size(8 * FINE_LANES)));
+typedef float half_lanes __attribute__((vector_size(4 * FINE_LANES), may_alias));
+
+static inline fine_lanes fine_lanes_at(const float *from) {
+    half_lanes v;
+    memcpy(&v, from, sizeof v);
+    return __builtin_convertvector(v, fine_lanes);
+}
+
+static inline void put_fine_lanes(float *to, fine_lanes v) {
+    half_lanes rounded = __builtin_convertvector(v, half_lanes);
+    memcpy(to, &rounded, sizeof rounded);
+}
+
+static inline float fine_weigh_one(const float *from, ptrdiff_t step,
+                                   const wf_upsample_phase *p) {
+    double sum = 0;
+    for (int k = 0; k < p->count; k++) sum += p->fine_tap[k] * (double)from[k * step];
+    return (float)sum;
+}
 
 static void fine_weigh(float *restrict out, const float *restrict chroma, ptrdiff_t step,
                        const wf_upsample_phase *phase, size_t count) {
     const float *from = chroma + phase->first * step;
-    for (size_t i = 0; i < count; i += FINE) {
-        size_t some = count - i < FINE ? count - i : FINE;
-        double sum[FINE] = {0};
+    size_t i = 0;
+    for (; i + FINE_BESIDE * FINE_LANES <= count; i += FINE_BESIDE * FINE_LANES) {
+        fine_lanes sum[FINE_BESIDE] = {{0}};
         for (int k = 0; k < phase->count; k++)
-            for (size_t b = 0; b < some; b++)
-                sum[b] += phase->fine_tap[k] * (double)from[k * step + (ptrdiff_t)(i + b)];
-        for (size_t b = 0; b < some; b++) out[i + b] = (float)sum[b];
+            for (int b = 0; b < FINE_BESIDE; b++)
+                sum[b] += phase->fine_tap[k] *
+                          fine_lanes_at(from + k * step + (ptrdiff_t)i + b * FINE_LANES);
+        for (int b = 0; b < FINE_BESIDE; b++) put_fine_lanes(out + i + b * FINE_LANES, sum[b]);
     }
+    for (; i < count; i++) out[i] = fine_weigh_one(from + i, step, phase);
 }
 
 static void fine_weigh_pair(float *const out[2], const float *chroma, ptrdiff_t step,

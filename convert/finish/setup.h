@@ -37,6 +37,7 @@ typedef struct wf_setup {
     wf_chromaticities primaries;     /* of light that is written as it came in */
     wf_transform decode;             /* what --from encodes becomes light before it is summed;
                                         apply is NULL where the input is taken as it is */
+    const wf_curve *from_curve;      /* of --from, where weft has the space; NULL: none */
     char from_transfer[24];          /* how --from encodes: "sRGB", "linear"; "encoded" where a
                                         configuration does not say */
     wf_transform transform;          /* apply is NULL where colors are left alone */

@@ -59,6 +59,7 @@ static weft_status find_own(const char *from, wf_setup *s, light *l, weft_error 
     char curve[24];
     snprintf(s->from_transfer, sizeof s->from_transfer, "%s",
              wf_decoding_name(&decoding, curve));
+    s->from_curve = space->curve;
     if (space->curve && !wf_decoding_transform(&decoding, &s->decode)) return no_memory(err);
     l->primaries = &wf_chromaticities_of[space->primaries];
     const wf_space *linear = space->curve ? wf_space_linear(space->primaries) : space;

@@ -153,6 +153,10 @@ static weft_status find_meaning(wf_run *run, weft_error *err) {
 static weft_status make_light(wf_run *run, weft_error *err) {
     video_source *s = run->source;
     const wf_transform *decode = run->job->from ? &run->setup.decode : NULL;
+    if (run->setup.from_curve) { /* as if the stream had said it, so that it is as quick */
+        s->meaning.colors.decoding = wf_decoding_of(run->setup.from_curve);
+        decode = NULL;
+    }
     wf_setup_take_from(run->job, &run->setup, &run->report->taken);
     return wf_light_new(&s->info, &s->meaning, decode, &s->light, err);
 }
