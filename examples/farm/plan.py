@@ -6,7 +6,7 @@
 
 COMMAND is called with NUMBER SECONDS WIDTH HEIGHT X0 Y0 X1 Y1 FILE behind it, and renders pixels X0 to X1
 and Y0 to Y1 (not included) of subframe NUMBER, the moment SECONDS ("3/400"), into the EXR FILE of WIDTH x
-HEIGHT. With --refine in the list, FOLDER/shot.NNNN.exr says then which part of it exists. A file stands at
+HEIGHT. With --error in the list, FOLDER/shot.NNNN.exr says then which part of it exists. A file stands at
 its name when it is whole, and what a list wants and is there since is not rendered again: whatever ends a
 part, it can be run again.
 """
@@ -16,39 +16,29 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from stamp_exr import stamp  # noqa: E402
+import planned  # noqa: E402
 
 
 def list_wanted(folder, *options):
     os.makedirs(os.path.join(folder, "wanted"), exist_ok=True)
     path = os.path.join(folder, "wanted", "list.json")
-    refines = ["--refine", folder] if "--error" in options else []
-    done = subprocess.run([os.environ.get("WEFT", "weft"), "plan", *options, *refines, "--format", "json"],
-                          stdout=subprocess.PIPE, check=False)
-    if done.returncode:
-        sys.exit(done.returncode)
-    plan = json.loads(done.stdout)
+    text, plan = planned.plan(options, folder)
     with open(path + ".part", "wb") as file:
-        file.write(done.stdout)
+        file.write(text)
     os.replace(path + ".part", path)
     print(len(plan["subframes"]), "subframes are wanted")
 
 
 def render_one(folder, listed, wanted, size, command):
-    region = wanted.get("region", [0, 0, *size])
-    path = os.path.join(folder, f"shot.{wanted['number']:04d}.exr")
-    if os.path.exists(path) and os.stat(path).st_mtime_ns > listed:
+    path, part = planned.path(folder, wanted), planned.unfinished(folder, wanted)
+    if os.path.exists(path) and ("region" not in wanted or os.stat(path).st_mtime_ns > listed):
         return
-    if os.path.exists(path) and "region" not in wanted:
-        return
-    part = os.path.join(folder, "wanted", f"{wanted['number']:04d}.{os.uname().nodename}.{os.getpid()}.exr")
-    words = [wanted["number"], wanted["time"], *size, *region, part]
+    words = [wanted["number"], wanted["time"], *size, *planned.region(wanted, size), part]
     done = subprocess.run([*command, *map(str, words)], check=False)
     if done.returncode or not os.path.exists(part):
         sys.exit(f"subframe {wanted['number']}: {command[0]} ended with {done.returncode}"
                  + ("" if os.path.exists(part) else " and left no file"))
-    stamp(part, wanted["time"], region if "region" in wanted else None)
-    os.replace(part, path)
+    planned.finish(folder, wanted)
 
 
 def render(index, parts, folder, *command):

@@ -7,7 +7,8 @@
 The first asks `weft plan` for the subframes and renders them into FOLDER, shot.NNNN.exr each; with --error
 it refines: a whole subframe or two a field, and then only rectangles of others, until nothing is wanted.
 What is there already is kept, so that a render that was ended goes on when it is asked for again. --chunk
-I/N renders the I-th of N parts of what is wanted now, for farms. Then: weft convert FOLDER --output-frames
+I/N renders the I-th of N parts of what is wanted now, for farms; with --error that is one round, and when all
+parts have rendered theirs there may be another. Then: weft convert FOLDER --output-frames
 0-24 --subframe-rate 400 --raster 625i -o shot.mov
 
 The second stores nothing: in each field so many instants, jittered within the window, are rendered and
@@ -17,7 +18,6 @@ In the scene `clock` is the time in seconds, and the camera's right vector gives
 and WEFT name the programs, POVRAY_OPTIONS adds options such as "+WT4 Quality=9".
 """
 import argparse
-import json
 import os
 import random
 import shlex
@@ -27,9 +27,8 @@ import tempfile
 from fractions import Fraction
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from stamp_exr import stamp  # noqa: E402
+import planned  # noqa: E402
 
-WEFT = os.environ.get("WEFT", "weft")
 POVRAY = os.environ.get("POVRAY", "povray")
 
 
@@ -47,36 +46,22 @@ def povray(scene, output, seconds, size, kind, region=None):
 
 # ---- By a plan ----
 
-def plan(options, folder, error):
-    """What is wanted now."""
-    words = [WEFT, "plan", *options, "--format", "json"]
-    if error:
-        words += ["--refine", folder, "--error", error]
-    done = subprocess.run(words, stdout=subprocess.PIPE, check=False)
-    if done.returncode:
-        sys.exit(done.returncode)
-    return json.loads(done.stdout)
-
-
-def render(scene, folder, wanted, size, refines):
+def render(scene, folder, wanted, size):
     """A subframe, under its name when it is whole."""
-    path = os.path.join(folder, f"shot.{wanted['number']:04d}.exr")
-    region = wanted.get("region", (0, 0, *size))
-    if not refines and os.path.exists(path):
+    if "region" not in wanted and os.path.exists(planned.path(folder, wanted)):
         return
-    part = os.path.join(folder, "unfinished", f"{wanted['number']:04d}.{os.getpid()}.exr")
-    povray(scene, part, Fraction(wanted["time"]), size, "E", region)
-    stamp(part, wanted["time"], region if refines else None)
-    os.replace(part, path)
+    povray(scene, planned.unfinished(folder, wanted), Fraction(wanted["time"]), size, "E", planned.region(wanted, size))
+    planned.finish(folder, wanted)
 
 
 def by_plan(asked, options):
     os.makedirs(os.path.join(asked.folder, "unfinished"), exist_ok=True)
     index, parts = asked.chunk
+    options += ["--error", asked.error] if asked.error else []
     while True:
-        now = plan(options, asked.folder, asked.error)
-        for wanted in now["subframes"][index - 1::parts]:
-            render(asked.scene, asked.folder, wanted, now["size"], asked.error)
+        _, now = planned.plan(options, asked.folder)
+        for wanted in planned.share(now["subframes"], index, parts):
+            render(asked.scene, asked.folder, wanted, now["size"])
         if not asked.error or parts > 1 or not now["subframes"]:
             return
 

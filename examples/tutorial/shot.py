@@ -60,5 +60,5 @@ text.data.materials.append(bpy.data.materials["paint"])
 
 camera, light = scene.camera, bpy.data.objects["Light"]
 camera.location, camera.rotation_euler = (-0.5, -9, 1), (math.radians(83), 0, 0)
-light.location, light.data.energy, light.data.shadow_soft_size = (3, -5, 6), 1500, 1
+light.location, light.data.energy, light.data.shadow_soft_size = (3, -5, 6), 4000, 1
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[sys.argv.index("--") + 1])

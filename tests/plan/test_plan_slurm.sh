@@ -1,5 +1,5 @@
 #!/bin/bash
-# examples/farm/plan_slurm.sh on a Slurm cluster: what is listed, rendered in parts, refined and converted as
+# examples/farm/plan_queue.py on a Slurm cluster: what is listed, rendered in parts, refined and converted as
 # steps that wait for each other is the video of all subframes; and a step that failed is taken up again.
 source "$(dirname "$0")/slurm_cluster.sh"
 farm=$WEFT_SOURCE/examples/farm
@@ -20,12 +20,12 @@ chmod +x renderer.sh
 within 20 idle || exit 1
 
 touch broken
-jobs=$("$farm/plan_slurm.sh" 2 1 planned out.y4m "$work/renderer.sh" "${looks[@]}")
+jobs=$("$farm/plan_queue.py" slurm 2 1 planned out.y4m "$work/renderer.sh" "${looks[@]}")
 check "queued: list, render, convert" same "$(wc -w <<<"$jobs")" 3
 check "it ends" within 60 over
 check "nothing is there" same "$(ls planned/*.exr out.y4m 2>/dev/null)" ""
 rm broken
-jobs=$("$farm/plan_slurm.sh" 2 1 planned out.y4m "$work/renderer.sh" "${looks[@]}")
+jobs=$("$farm/plan_queue.py" slurm 2 1 planned out.y4m "$work/renderer.sh" "${looks[@]}")
 check "again" within 60 over
 check "16 subframes" same "$(ls planned/*.exr | wc -l)" 16
 weft convert planned --raster 96x64@30i,tff --subframe-rate 480 --aperture box --output-frames 1-2 -q -o own.y4m
@@ -34,7 +34,7 @@ check "the video is that of all subframes" cmp out.y4m whole.y4m
 check "and by hand" cmp own.y4m whole.y4m
 
 rm rendered
-jobs=$("$farm/plan_slurm.sh" 2 4 refined refined.y4m "$work/renderer.sh" "${looks[@]}" --error 0.005)
+jobs=$("$farm/plan_queue.py" slurm 2 4 refined refined.y4m "$work/renderer.sh" "${looks[@]}" --error 0.005)
 check "refining" within 120 over
 check "rectangles were rendered" grep -qv " 0 0 96 64 " rendered
 check "nothing is wanted" exits 0 weft plan "${looks[@]}" --error 0.005 --refine refined --format json

@@ -31,6 +31,18 @@ check "video of that" video refined refined.y4m
 check "they are alike" exits 0 weft measure refined.y4m --against planned.y4m --json
 check "within the error" value "d['difference']['rmse'] < 0.0005"
 check "rectangles were enough" bash -c "grep -l weft:region refined/*.exr | wc -l | grep -qx 8"
+# Parts of a farm that refine: one has ended when the other asks for its list, and nothing is left out or done twice.
+for round in 1 2 3 4 5 6 7 8; do
+    for part in 2/2 1/2; do
+        check "part $part of round $round" exits 0 python3 "$driver" shot.pov parts $looks --error 0.002 --chunk $part
+    done
+    exits 0 "$WEFT" plan $looks --refine parts --error 0.002 --format json
+    value "d['subframes'] == []" 2>/dev/null && break
+done
+check "parts end" value "d['subframes'] == []"
+check "video of parts" video parts parts.y4m
+check "it is that of one machine" exits 0 weft measure parts.y4m --against planned.y4m --json
+check "within the error too" value "d['difference']['rmse'] < 0.0005"
 check "a scene that is none" fails "POV-Ray failed" python3 "$driver" none.pov failed $looks
 check "leaves nothing" same "$(ls failed)" unfinished
 check "a plan that is none" exits 2 python3 "$driver" shot.pov failed --raster 48x36@25i,tff --frames 1-2
