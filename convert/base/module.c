@@ -48,49 +48,78 @@ static bool find_module(const char *name, char path[PATH_MAX]) {
     return false;
 }
 
-/* ---- Loading ---- */
+/* ---- What a module needs ---- */
 
-/* What a module needs of the system, as Debian 12 calls it. */
-static const char *package_of(const char *name) {
-    static const struct {
-        const char *name, *package;
-    } packages[] = {{"oiio", "libopenimageio2.4"},
-                    {"ocio", "libopencolorio2.1"},
-                    {"plot", "libcairo2"},
-                    {"libav", "libavformat59 (and libavcodec59)"},
-                    {"deinterlace", "libavfilter8"}};
-    for (size_t i = 0; i < sizeof packages / sizeof *packages; i++)
-        if (!strcmp(packages[i].name, name)) return packages[i].package;
-    return "it was linked with";
+/* The library that a module is for, and what brings it on Debian 12. */
+typedef struct needed {
+    const char *name, *library, *package, *to_build;
+} needed;
+
+static const needed *needed_by(const char *name) {
+    static const needed rows[] = {
+        {"oiio", "OpenImageIO", "libopenimageio2.4", "libopenimageio-dev"},
+        {"ocio", "OpenColorIO", "libopencolorio2.1", "libopencolorio-dev"},
+        {"plot", "Cairo", "libcairo2", "libcairo2-dev"},
+        {"libav", "libav", "libavformat59 (and libavcodec59)",
+         "libavformat-dev, libavcodec-dev and libswresample-dev"},
+        {"deinterlace", "libavfilter", "libavfilter8", "libavfilter-dev"}};
+    static const needed other = {"", "a module", "it was linked with", "what it is made of"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(rows[i].name, name)) return &rows[i];
+    return &other;
 }
+
+/* WF_MODULES is what was built: "weft-oiio weft-plot ". */
+static bool was_built(const char *name) {
+    char word[64];
+    snprintf(word, sizeof word, "weft-%.40s ", name);
+    return strstr(WF_MODULES, word);
+}
+
+/* An error where the module is not there; else path is where it is. */
+static weft_status locate(const char *name, const char *what, char path[PATH_MAX],
+                          weft_error *err) {
+    const needed *n = needed_by(name);
+    if (find_module(name, path)) return WEFT_OK;
+    if (!was_built(name))
+        return wf_fail(err, WEFT_FAILED,
+                       "%.600s needs %s, which this weft was built without: install %s and "
+                       "build it again",
+                       what, n->library, n->to_build);
+    return wf_fail(err, WEFT_FAILED,
+                   "%.400s needs %s, and the module weft-%.40s.so for it is not there: it is "
+                   "looked for in weft/ beside the library and in %s; install weft-plugins, or "
+                   "weft whole",
+                   what, n->library, name, WF_MODULE_DIR);
+}
+
+weft_status wf_module_check(const char *name, const char *what, weft_error *err) {
+    char path[PATH_MAX];
+    return locate(name, what, path, err);
+}
+
+/* ---- Loading ---- */
 
 static const char *loader_says(void) {
     const char *says = dlerror();
     return says ? says : "the loader does not say why";
 }
 
-bool wf_module_built(const char *name) {
-    char path[PATH_MAX];
-    return find_module(name, path);
-}
-
-weft_status wf_module_symbol(const char *name, const char *symbol, void **symbol_out,
-                             weft_error *err) {
+weft_status wf_module_symbol(const char *name, const char *symbol, const char *what,
+                             void **symbol_out, weft_error *err) {
     char path[PATH_MAX];
     *symbol_out = NULL;
-    if (!find_module(name, path))
-        return wf_fail(
-            err, WEFT_FAILED,
-            "the module weft-%s.so is not there: it is looked for in weft/ beside the "
-            "library and in %s; install weft whole",
-            name, WF_MODULE_DIR);
+    weft_status status = locate(name, what, path, err);
+    if (status) return status;
     /* Never closed: a library such as OpenImageIO leaves threads behind. Loading one again
      * costs microseconds, and the loader has the lock. */
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!module)
-        return wf_fail(err, WEFT_FAILED,
-                       "the module %.300s cannot be loaded: %.400s; it needs the package %s",
-                       path, loader_says(), package_of(name));
+        return wf_fail(
+            err, WEFT_FAILED,
+            "%.200s needs the module %.200s, which cannot be loaded: %.300s; it needs "
+            "the package %s",
+            what, path, loader_says(), needed_by(name)->package);
     *symbol_out = dlsym(module, symbol);
     if (*symbol_out) return WEFT_OK;
     return wf_fail(

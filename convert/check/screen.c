@@ -2,6 +2,7 @@
 #include "convert/check/screen.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -88,13 +89,10 @@ static bool make_pictures(wf_screen *s) {
 
 static weft_status find_deinterlacer(wf_screen *s, weft_error *err) {
     void *symbol;
-    if (!wf_module_built("deinterlace"))
-        return wf_fail(
-            err, WEFT_FAILED,
-            "--display %s: weft was built without libavfilter (libavfilter-dev), which "
-            "has it; bob and crt are always there",
-            wf_display_name(s->kind));
-    weft_status status = wf_module_symbol("deinterlace", "wf_deinterlacer_of", &symbol, err);
+    char what[80];
+    snprintf(what, sizeof what, "--display %s (not bob or crt)", wf_display_name(s->kind));
+    weft_status status =
+        wf_module_symbol("deinterlace", "wf_deinterlacer_of", what, &symbol, err);
     if (status) return status;
     wf_deinterlacer_fn *find;
     memcpy(&find, &symbol, sizeof find);

@@ -23,7 +23,8 @@ static const char *foreign_config(const weft_job *job) {
 
 static weft_status ocio_entry(const char *name, void *entry, weft_error *err) {
     void *symbol;
-    weft_status status = wf_module_symbol("ocio", name, &symbol, err);
+    weft_status status = wf_module_symbol(
+        "ocio", name, "color by --ocio or $OCIO, --display, --view or --look", &symbol, err);
     if (!status) memcpy(entry, &symbol, sizeof symbol);
     return status;
 }

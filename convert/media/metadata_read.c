@@ -12,14 +12,11 @@
 
 weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error *err) {
     void *symbol;
+    char what[600];
     wf_libav_metadata_fn *ask;
     *metadata = (wf_metadata){.frames = -1, .frame_layout = -1, .dominance = -1, .siting = -1};
-    if (!wf_module_built("libav"))
-        return wf_fail(err, WEFT_FAILED,
-                       "%.700s: containers are read through libav, which this weft was built "
-                       "without: install libavformat-dev and libavcodec-dev and build it again",
-                       path);
-    weft_status status = wf_module_symbol("libav", "wf_libav_metadata", &symbol, err);
+    snprintf(what, sizeof what, "%.500s: a container", path);
+    weft_status status = wf_module_symbol("libav", "wf_libav_metadata", what, &symbol, err);
     if (status) return status;
     memcpy(&ask, &symbol, sizeof ask);
     status = ask(path, metadata, err);

@@ -15,7 +15,7 @@ weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
     void *found;
     wf_plot_fn *draw;
     wf_outfile *file;
-    weft_status status = wf_module_symbol("plot", symbol, &found, err);
+    weft_status status = wf_module_symbol("plot", symbol, path, &found, err);
     if (status) return status;
     memcpy(&draw, &found, sizeof draw);
     status = wf_outfile_open(path, true, &file, err);

@@ -19,9 +19,9 @@
 
 static weft_status module_entry(const wf_subframe *s, const char *name, void **entry,
                                 weft_error *err) {
-    weft_error why = {""};
-    weft_status status = wf_module_symbol("oiio", name, entry, &why);
-    return status ? wf_fail(err, status, "%s: %s", s->path, why.text) : WEFT_OK;
+    char what[600];
+    snprintf(what, sizeof what, "%.500s: a picture that is no EXR", s->path);
+    return wf_module_symbol("oiio", name, what, entry, err);
 }
 
 /* Memory for a picture that is read whole. */

@@ -44,16 +44,13 @@ static void label_mixed_fields(const wf_video *v, wf_video_label *label) {
 static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *err) {
     void *symbol;
     wf_libav_kind_fn *kind;
-    weft_error why = {""};
-    if (!wf_module_built("libav"))
-        return wf_fail(
-            err, WEFT_FAILED,
-            "%s: it is neither Y4M nor a picture, and not named .v210 or .uyvy; other "
-            "video is read through libav, which this weft was built without: install "
-            "libavformat-dev and libavcodec-dev and build it again",
-            v->path);
-    weft_status status = wf_module_symbol("libav", "wf_libav_kind", &symbol, &why);
-    if (status) return wf_fail(err, status, "%s: %s", v->path, why.text);
+    char what[700];
+    snprintf(
+        what, sizeof what,
+        "%.500s: it is neither Y4M nor a picture, and not named .v210 or .uyvy; other video",
+        v->path);
+    weft_status status = wf_module_symbol("libav", "wf_libav_kind", what, &symbol, err);
+    if (status) return status;
     memcpy(&kind, &symbol, sizeof kind);
     v->kind = kind();
     status = v->kind->open(v, label, err);

@@ -67,15 +67,10 @@ static weft_status find_file(wf_sound *s, weft_error *err) {
 
 static weft_status find_reader(wf_sound *s, weft_error *err) {
     void *symbol;
+    char what[600];
     wf_libav_sound_fn *reader;
-    if (!wf_module_built("libav"))
-        return wf_fail(
-            err, WEFT_FAILED,
-            "%.500s: sound is read through libav, which this weft was built without: "
-            "install libavformat-dev, libavcodec-dev and libswresample-dev and build it "
-            "again, or give silent:2",
-            s->path);
-    weft_status status = wf_module_symbol("libav", "wf_libav_sound", &symbol, err);
+    snprintf(what, sizeof what, "%.500s: sound that is not silent:2", s->path);
+    weft_status status = wf_module_symbol("libav", "wf_libav_sound", what, &symbol, err);
     if (status) return status;
     memcpy(&reader, &symbol, sizeof reader);
     s->reader = reader();

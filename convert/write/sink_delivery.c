@@ -21,6 +21,12 @@ static const wf_delivery *delivery_of(const wf_output_options *o) {
     return wf_delivery_for(o->output, o->codec, &container, NULL);
 }
 
+/* What needs libav, and what would not. */
+static void name_need(const wf_output_options *o, char what[600]) {
+    snprintf(what, 600, "%.500s: a container (which .y4m, .v210 and sequences are not)",
+             o->output);
+}
+
 static weft_status check(const wf_output_options *o, weft_error *err) {
     const wf_delivery *d = delivery_of(o);
     if (o->full_range && !d->full_range)
@@ -33,12 +39,9 @@ static weft_status check(const wf_output_options *o, weft_error *err) {
                        o->output, d->kind.name, o->bits);
     if (!wf_delivery_form_for(d, o, err)) return WEFT_USAGE;
     weft_status status = wf_delivery_check_sound(d, o, err);
-    if (status || wf_module_built("libav")) return status;
-    return wf_fail(err, WEFT_FAILED,
-                   "%.500s: containers are written through libav, which this weft was built "
-                   "without: install libavformat-dev and libavcodec-dev and build it again, or "
-                   "write .y4m, .v210 or an image sequence",
-                   o->output);
+    char what[600];
+    name_need(o, what);
+    return status ? status : wf_module_check("libav", what, err);
 }
 
 static void tell(const wf_output_options *o, char *text, size_t size) {
@@ -84,9 +87,11 @@ static wf_sink_size size(const wf_output_options *o, int64_t frames) {
 
 static weft_status open_sink(const wf_output_options *o, wf_sink **out, weft_error *err) {
     void *symbol;
+    char what[600];
     wf_libav_writer_fn *writer;
     weft_status status = check(o, err);
-    if (!status) status = wf_module_symbol("libav", "wf_libav_writer_of", &symbol, err);
+    name_need(o, what);
+    if (!status) status = wf_module_symbol("libav", "wf_libav_writer_of", what, &symbol, err);
     if (status) return status;
     memcpy(&writer, &symbol, sizeof writer);
     wf_sink *s = calloc(1, sizeof *s);

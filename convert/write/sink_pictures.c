@@ -73,9 +73,11 @@ static weft_status check_absent(const wf_output_options *o, weft_error *err) {
 static weft_status open_pictures(const wf_output_options *options, const char *format,
                                  wf_sink **out, weft_error *err) {
     void *symbol;
+    char what[600];
+    snprintf(what, sizeof what, "%.500s: %s", options->output, format);
     weft_status status = check_name(options, err);
     if (!status) status = check_absent(options, err);
-    if (!status) status = wf_module_symbol("oiio", "wf_oiio_write", &symbol, err);
+    if (!status) status = wf_module_symbol("oiio", "wf_oiio_write", what, &symbol, err);
     if (status) return status;
     wf_sink *s = calloc(1, sizeof *s);
     if (!s)

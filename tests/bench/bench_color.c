@@ -74,7 +74,7 @@ static void measure_ocio(const field *f, const wf_ocio_query *query, const char 
     wf_ocio_open_fn *open;
     wf_transform t;
     char why[900];
-    if (wf_module_symbol("ocio", "wf_ocio_open", &symbol, NULL)) return;
+    if (wf_module_symbol("ocio", "wf_ocio_open", "a view", &symbol, NULL)) return;
     memcpy(&open, &symbol, sizeof open);
     if (open(query, &t, why, sizeof why))
         measure(f, &t, name, 3);

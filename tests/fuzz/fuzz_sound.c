@@ -16,8 +16,7 @@ enum { COUNT = 1601, BLOCKS = 20 };
 static const wf_sound_reader *reader_of_module(void) {
     void *symbol;
     wf_libav_sound_fn *reader;
-    if (!wf_module_built("libav") || wf_module_symbol("libav", "wf_libav_sound", &symbol, NULL))
-        return NULL;
+    if (wf_module_symbol("libav", "wf_libav_sound", "sound", &symbol, NULL)) return NULL;
     memcpy(&reader, &symbol, sizeof reader);
     return reader();
 }

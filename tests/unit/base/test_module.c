@@ -16,10 +16,36 @@ static void an_absent_module(void **state) {
     (void)state;
     void *symbol = state;
     weft_error err = {""};
-    assert_int_equal(wf_module_symbol("nonesuch", "anything", &symbol, &err), WEFT_FAILED);
+    assert_int_equal(wf_module_symbol("nonesuch", "anything", "a.b: C", &symbol, &err),
+                     WEFT_FAILED);
     assert_null(symbol);
-    assert_non_null(strstr(err.text, "weft-nonesuch.so is not there"));
-    assert_int_equal(wf_module_symbol("nonesuch", "anything", &symbol, NULL), WEFT_FAILED);
+    assert_int_equal(strncmp(err.text, "a.b: C needs ", 13), 0);
+    assert_non_null(strstr(err.text, "built without"));
+    assert_int_equal(wf_module_check("nonesuch", "a.b: C", &err), WEFT_FAILED);
+    assert_int_equal(strncmp(err.text, "a.b: C needs ", 13), 0);
+    assert_int_equal(wf_module_symbol("nonesuch", "anything", "it", &symbol, NULL),
+                     WEFT_FAILED);
+}
+
+/* Modules are there, or what would bring them is said, whatever this build has. */
+static void each_module(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *library, *debian;
+    } rows[] = {{"oiio", "OpenImageIO", "libopenimageio-dev"},
+                {"ocio", "OpenColorIO", "libopencolorio-dev"},
+                {"plot", "Cairo", "libcairo2-dev"},
+                {"libav", "libav", "libavformat-dev"},
+                {"deinterlace", "libavfilter", "libavfilter-dev"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char says[128];
+        weft_error err = {""};
+        if (!wf_module_check(rows[i].name, "x", &err)) continue;
+        print_message("%s\n", err.text);
+        snprintf(says, sizeof says, "x needs %s, which this weft was built without: install %s",
+                 rows[i].library, rows[i].debian);
+        assert_int_equal(strncmp(err.text, says, strlen(says)), 0);
+    }
 }
 
 /* Whether the build has made the plot module; sets *known false if there is no build to look
@@ -37,7 +63,7 @@ static void *find_plot(void *arg) {
     (void)arg;
     void *symbol = NULL;
     weft_error err;
-    return wf_module_symbol("plot", "wf_plot_draw", &symbol, &err) ? NULL : symbol;
+    return wf_module_symbol("plot", "wf_plot_draw", "a plot", &symbol, &err) ? NULL : symbol;
 }
 
 static void modules_of_the_build(void **state) {
@@ -50,8 +76,10 @@ static void modules_of_the_build(void **state) {
     }
     void *symbol;
     weft_error err = {""};
-    if (wf_module_symbol("plot", "wf_plot_draw", &symbol, &err)) fail_msg("%s", err.text);
-    assert_int_equal(wf_module_symbol("plot", "wf_nonesuch", &symbol, &err), WEFT_FAILED);
+    if (wf_module_symbol("plot", "wf_plot_draw", "a plot", &symbol, &err))
+        fail_msg("%s", err.text);
+    assert_int_equal(wf_module_symbol("plot", "wf_nonesuch", "a plot", &symbol, &err),
+                     WEFT_FAILED);
     assert_non_null(strstr(err.text, "another version"));
     assert_non_null(strstr(err.text, "wf_nonesuch"));
 }
@@ -75,6 +103,7 @@ static void threads(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_absent_module),
+        cmocka_unit_test(each_module),
         cmocka_unit_test(modules_of_the_build),
         cmocka_unit_test(threads),
     };

@@ -28,7 +28,7 @@ static int find_module(void **state) {
     void *symbol[3];
     weft_error err;
     for (int i = 0; i < 3; i++)
-        if (wf_module_symbol("oiio", names[i], &symbol[i], &err)) {
+        if (wf_module_symbol("oiio", names[i], "a picture", &symbol[i], &err)) {
             print_message("skipped: %s\n", err.text);
             exit(77);
         }

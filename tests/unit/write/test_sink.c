@@ -358,7 +358,7 @@ static weft_error oiio_error;
 
 static void *oiio_entry(const char *name) {
     void *symbol;
-    if (wf_module_symbol("oiio", name, &symbol, &oiio_error)) {
+    if (wf_module_symbol("oiio", name, "a picture", &symbol, &oiio_error)) {
         print_message("skipped: %s\n", oiio_error.text);
         skip();
     }
@@ -702,7 +702,7 @@ static bool can_be_tried(wf_output row) {
     clip c = small_clip(row);
     c.options.output = name;
     c.options.raster = &c.raster;
-    bool can = wf_module_built("libav") && output_for(name).kind == kind &&
+    bool can = !wf_module_check("libav", name, NULL) && output_for(name).kind == kind &&
                !row.ops->check(&c.options, NULL);
     free_clip(&c);
     return can;
