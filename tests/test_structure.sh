@@ -101,12 +101,14 @@ convert/plan        : filters/* convert/base convert/job convert/media convert/r
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
+convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/check
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/plot
 convert/program/plan : convert/base convert/job convert/plan convert/program
+convert/program/page : filters/* convert/base convert/job convert/page convert/program
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check
 '
-# The public header belongs to no room, and what the build makes of color/weft.ocio is a string.
-everywhere='convert/weft\.h|color/weft_ocio\.inc'
+# The public header belongs to no room, and what the build makes of color/weft.ocio and of the page's sources are strings.
+everywhere='convert/weft\.h|color/weft_ocio\.inc|convert/page_assets\.inc'
 
 # FILE INCLUDED, for every include of ours.
 quoted_includes()

@@ -30,3 +30,10 @@ float *wf_heat_take(wf_heat *heat) {
     heat->square = NULL;
     return map;
 }
+
+double wf_heat_top(double value) {
+    static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        if (value <= steps[i]) return steps[i];
+    return isnan(value) ? 1 : 100;
+}

@@ -19,4 +19,8 @@ void wf_heat_add(wf_heat *heat, size_t at, float value);
 /* The map, [samples], 0 where nothing was added; the caller's to free. NULL if not wanted. */
 float *wf_heat_take(wf_heat *heat);
 
+/* The value to draw in the strongest color, where so much is hardly exceeded: it, rounded up to
+ * a round number. */
+double wf_heat_top(double value);
+
 #endif

@@ -204,10 +204,23 @@ static void show_progress(const measuring *m) {
     if (m->options->progress) m->options->progress(&progress, m->options->progress_user);
 }
 
+/* The next frame of those that are asked for; NULL after them. */
+static weft_status next_frame(measuring *m, const wf_video_frame **frame, weft_error *err) {
+    int64_t first = m->options->first_frame, count = m->options->frame_count;
+    if (count && m->frames == count) {
+        *frame = NULL;
+        return WEFT_OK;
+    }
+    weft_status status = WEFT_OK;
+    do status = wf_video_next(m->video, frame, err);
+    while (!status && *frame && (*frame)->index < first);
+    return status;
+}
+
 static weft_status measure_frames(measuring *m, weft_error *err) {
     for (;; m->frames++) {
         const wf_video_frame *frame;
-        weft_status status = wf_video_next(m->video, &frame, err);
+        weft_status status = next_frame(m, &frame, err);
         if (!status) status = compare(m, frame, err);
         if (status || !frame) return status;
         wf_signal *signal = signal_of(m, m->frames);
@@ -221,6 +234,9 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
 }
 
 static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) {
+    if (!m->frames && m->options->first_frame)
+        return wf_fail(err, WEFT_USAGE, "%s: there is no frame %" PRId64 " in it", m->path,
+                       m->options->first_frame);
     if (!m->frames) return wf_fail(err, WEFT_FAILED, "%s: there is no frame in it", m->path);
     figures->frames = m->frames;
     figures->info = *wf_video_info_of(m->video);

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
@@ -38,7 +39,8 @@ typedef struct wf_measure_options {
     double peak_cd_m2;   /* the luminance of white; 0: as usual */
     bool want_heat;
     wf_heat_kind heat;
-    bool of_delivery; /* only what a delivery is held to: order and legality */
+    int64_t first_frame, frame_count; /* which to measure; count 0: all from the first on */
+    bool of_delivery;                 /* only what a delivery is held to: order and legality */
     size_t max_memory_bytes;
     weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
     void *progress_user;

@@ -37,7 +37,7 @@ typedef struct wf_cmd {
 
 extern const wf_cmd wf_cmd_convert, wf_cmd_render, wf_cmd_trace, wf_cmd_measure,
     wf_cmd_composite, wf_cmd_filters, wf_cmd_plot, wf_cmd_rasters, wf_cmd_info, wf_cmd_verify,
-    wf_cmd_plan, wf_cmd_manual, wf_cmd_completion;
+    wf_cmd_plan, wf_cmd_page, wf_cmd_manual, wf_cmd_completion;
 
 /* The command of that index, in the order in which help lists them; NULL past the end. */
 const wf_cmd *wf_cmd_at(size_t index);

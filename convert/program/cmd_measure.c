@@ -1,7 +1,6 @@
 /* weft measure: flicker, cross-color, field order, legality and differences of video. */
 #include "convert/program/measure_parts.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +8,7 @@
 
 #include "convert/base/fail.h"
 #include "convert/base/values.h"
+#include "convert/check/heat.h"
 #include "convert/plot/plot.h"
 #include "convert/program/cmd.h"
 
@@ -174,15 +174,6 @@ static void describe_heat(const measure_state *s, const wf_figures *f, char text
                  f->flicker_rms, f->flicker_p999, 100 * f->flicker_share);
 }
 
-/* The value that is drawn in the strongest color: the 99.9th percentile, rounded up to a round
- * number. */
-static double round_up(double value) {
-    static const double steps[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50};
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
-        if (value <= steps[i]) return steps[i];
-    return isnan(value) ? 1 : 100;
-}
-
 static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_error *err) {
     char subtitle[128];
     double high;
@@ -194,7 +185,7 @@ static weft_status draw_heat(const measure_state *s, const wf_figures *f, weft_e
                              .width_px = f->info.width_px,
                              .lines = f->info.lines,
                              .pixel_aspect = wf_ratio_value(f->info.raster.pixel_aspect),
-                             .high = round_up(high)};
+                             .high = wf_heat_top(high)};
     return wf_cmd_draw("wf_plot_heat", &map, s->heatmap, err);
 }
 

@@ -13,9 +13,9 @@
 #include "filters/base/spelling.h"
 
 static const wf_cmd *const commands[] = {
-    &wf_cmd_convert,   &wf_cmd_render,  &wf_cmd_trace,     &wf_cmd_plan,    &wf_cmd_measure,
-    &wf_cmd_composite, &wf_cmd_filters, &wf_cmd_plot,      &wf_cmd_rasters, &wf_cmd_info,
-    &wf_cmd_verify,    &wf_cmd_manual,  &wf_cmd_completion};
+    &wf_cmd_convert,   &wf_cmd_render,  &wf_cmd_trace,  &wf_cmd_plan,      &wf_cmd_measure,
+    &wf_cmd_composite, &wf_cmd_filters, &wf_cmd_plot,   &wf_cmd_rasters,   &wf_cmd_info,
+    &wf_cmd_verify,    &wf_cmd_page,    &wf_cmd_manual, &wf_cmd_completion};
 
 #define COMMANDS (sizeof commands / sizeof *commands)
 

@@ -68,7 +68,8 @@ def closing(ctx, seconds):
 
 
 def player_of(ctx):
-    return asset("player.html").replace("RASTER", "{} by {}".format(*clips.size(ctx)))
+    return asset("introduction.html").replace("RASTER", "{} by {}".format(*clips.size(ctx))).replace(
+        "PLAYER", asset("player.html"))
 
 
 def finish(ctx, player, started):

@@ -9,8 +9,12 @@ from pictures import uri
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
+PLAYER = os.path.join(HERE, "..", "..", "convert", "page")  # installed, its files lie here
+
+
 def asset(name):
-    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+    path = os.path.join(HERE, name)
+    with open(path if os.path.exists(path) else os.path.join(PLAYER, name), encoding="utf-8") as file:
         return file.read()
 
 
@@ -86,7 +90,7 @@ class Report:
                            f'<h2 id="{name}-title">{title}</h2>{body}</section>'
                            for name, title, body in self.sections)
         sections = re.sub(r"(?<=\d) (?=(%|Hz|ms|dB|px)\b|%)", "\N{NO-BREAK SPACE}", sections)
-        return asset("page.html").format(style=asset("page.css"), opening=opening,
+        return asset("page.html").format(style=asset("page.css") + asset("player.css"), opening=opening,
                                          contents=self.contents(), player=player,
                                          sections=sections, closing=closing, data=data,
                                          pixels=asset("pixels.js"), script=asset("player.js"))

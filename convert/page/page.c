@@ -1,0 +1,323 @@
+/* Reads, measures and packs the clips of a page. */
+#include "convert/page/page.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "convert/base/clock.h"
+#include "convert/base/names.h"
+#include "convert/check/heat.h"
+#include "convert/check/measure.h"
+#include "convert/page/parts.h"
+
+typedef struct making {
+    wf_page page;
+    double began_s;
+    int64_t steps_done, steps; /* frames to measure and to pack, of all clips */
+    const char *stage;
+    size_t packed_bytes; /* of clips before the one in hand */
+} making;
+
+static const wf_page_request *request_of(const making *m) {
+    return m->page.request;
+}
+
+static void warn(const making *m, const char *text) {
+    if (request_of(m)->warning) request_of(m)->warning(text, request_of(m)->warning_user);
+}
+
+/* ---- Progress ---- */
+
+static void tell_progress(const making *m, int64_t further) {
+    int64_t done = m->steps_done + further;
+    const weft_progress progress = {.frames_done = done,
+                                    .frames_total = m->steps > done ? m->steps : done,
+                                    .seconds = wf_now_s() - m->began_s,
+                                    .stage = m->stage};
+    if (request_of(m)->progress)
+        request_of(m)->progress(&progress, request_of(m)->progress_user);
+}
+
+static void on_measured(const weft_progress *progress, void *user) {
+    tell_progress(user, progress->frames_done);
+}
+
+/* ---- Which clips can be shown ---- */
+
+static weft_status open_clip(const making *m, const char *path, wf_video **video,
+                             weft_error *err) {
+    const wf_video_options options = {.raster = request_of(m)->raster,
+                                      .max_memory_bytes = request_of(m)->max_memory_bytes};
+    if (!strcmp(path, "-"))
+        return wf_fail(
+            err, WEFT_USAGE,
+            "standard input can be read once, and a page reads each clip twice: give "
+            "a file");
+    return wf_video_open(path, &options, video, err);
+}
+
+static weft_status check_fields(const char *path, const wf_video_info *info, weft_error *err) {
+    if (info->lines % 2)
+        return wf_fail(err, WEFT_FAILED,
+                       "%.500s: its pictures have %d lines, an odd number; two fields need an "
+                       "even one",
+                       path, info->lines);
+    if (info->raster.scan != WF_PROGRESSIVE) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%.500s says that it is progressive (%s), and a page shows fields: make "
+                   "interlaced video of it with 'weft convert', or, if it is that, name its "
+                   "--raster",
+                   path, info->raster.name);
+}
+
+/* The two clips can be shown in step, line by line. */
+static weft_status check_alike(const wf_page_packed *a, const wf_page_packed *b,
+                               weft_error *err) {
+    const wf_video_info *x = &a->info, *y = &b->info;
+    static const char rule[] =
+        "a page compares clips of one size and rate; make pages of their "
+        "own, or convert one to the other's raster";
+    if (x->width_px != y->width_px || x->lines != y->lines)
+        return wf_fail(err, WEFT_USAGE, "%.300s is %dx%d and %.300s %dx%d: %s", a->path,
+                       x->width_px, x->lines, b->path, y->width_px, y->lines, rule);
+    if (wf_ratio_equal(x->raster.frame_rate, y->raster.frame_rate)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%.300s has %.5g frames a second and %.300s %.5g: %s",
+                   a->path, wf_ratio_value(x->raster.frame_rate), b->path,
+                   wf_ratio_value(y->raster.frame_rate), rule);
+}
+
+static weft_status look_at(making *m, size_t i, weft_error *err) {
+    wf_page_packed *clip = &m->page.clip[i];
+    const wf_page_request *r = request_of(m);
+    wf_video *video;
+    weft_status status = open_clip(m, clip->path, &video, err);
+    if (status) return status;
+    clip->info = *wf_video_info_of(video);
+    clip->info.times = NULL; /* the video's */
+    wf_video_close(video);
+    int64_t frames = clip->info.frames < 0 ? 0 : clip->info.frames - r->first;
+    if (r->count && (clip->info.frames < 0 || frames > r->count)) frames = r->count;
+    m->steps += 2 * (frames > 0 ? frames : 0);
+    status = check_fields(clip->path, &clip->info, err);
+    return status || !i ? status : check_alike(&m->page.clip[0], clip, err);
+}
+
+/* ---- Measuring ---- */
+
+static weft_status measure(making *m, wf_page_packed *clip, weft_error *err) {
+    const wf_page_request *r = request_of(m);
+    const wf_measure_options options = {.raster = r->raster,
+                                        .want_heat = true,
+                                        .first_frame = r->first,
+                                        .frame_count = r->count,
+                                        .max_memory_bytes = r->max_memory_bytes,
+                                        .progress = on_measured,
+                                        .progress_user = m};
+    m->stage = "measure";
+    weft_status status = wf_measure(clip->path, &options, &clip->figures, err);
+    m->steps_done += clip->figures.frames;
+    double top = isnan(clip->figures.flicker_p999) ? 0 : clip->figures.flicker_p999;
+    m->page.heat_high = fmax(m->page.heat_high, top);
+    return status;
+}
+
+/* ---- Packing ---- */
+
+static size_t as_text(size_t bytes) {
+    return (bytes + 2) / 3 * 4;
+}
+
+static int64_t measured_frames(const making *m) {
+    int64_t frames = 0;
+    for (size_t i = 0; i < m->page.clips; i++) frames += m->page.clip[i].figures.frames;
+    return frames;
+}
+
+static weft_status check_size(const making *m, const wf_page_packed *clip, weft_error *err) {
+    size_t most = request_of(m)->max_bytes, bytes, spare = (size_t)1 << 20;
+    wf_packer_data(clip->fields, &bytes);
+    double all = (double)as_text(m->packed_bytes + bytes) + (double)spare;
+    if (all <= (double)most) return WEFT_OK;
+    /* As many frames as there is room for, if all are like those so far. */
+    double frames = (double)m->steps_done - (double)measured_frames(m);
+    int64_t fits = (int64_t)(0.95 * frames / (double)m->page.clips);
+    return wf_fail(err, WEFT_FAILED,
+                   "the page would have more than %.0f MB (--max-size), after %" PRId64
+                   " frames of %.300s; show fewer frames, such as --frames %" PRId64 "-%" PRId64
+                   ", or fewer clips, or allow more",
+                   (double)most / 1e6, clip->frames, clip->path, request_of(m)->first,
+                   request_of(m)->first + (fits > 1 ? fits - 1 : 0));
+}
+
+static weft_status pack_frame(making *m, wf_page_packed *clip, wf_page_shown *shown,
+                              const wf_video_frame *frame, weft_error *err) {
+    weft_status status = WEFT_OK;
+    wf_page_shown_take(shown, frame);
+    for (int field = 0; field < 2 && !status; field++)
+        status = wf_packer_add(
+            clip->fields,
+            wf_page_shown_field(shown, wf_raster_parity(&clip->info.raster, field)), err);
+    clip->frames++;
+    m->steps_done++;
+    if (!status) tell_progress(m, 0);
+    return status ? status : check_size(m, clip, err);
+}
+
+static weft_status pack_frames(making *m, wf_page_packed *clip, wf_video *video,
+                               wf_page_shown *shown, weft_error *err) {
+    const wf_page_request *r = request_of(m);
+    const wf_video_frame *frame;
+    weft_status status = wf_video_next(video, &frame, err);
+    while (!status && frame && (!r->count || frame->index < r->first + r->count)) {
+        if (frame->index >= r->first) status = pack_frame(m, clip, shown, frame, err);
+        if (!status) status = wf_video_next(video, &frame, err);
+    }
+    return status;
+}
+
+static weft_status pack(making *m, wf_page_packed *clip, weft_error *err) {
+    wf_video *video = NULL;
+    wf_page_shown *shown = NULL;
+    size_t bytes;
+    m->stage = "pack";
+    weft_status status = open_clip(m, clip->path, &video, err);
+    if (!status) status = wf_page_shown_new(&clip->info, &shown, err);
+    if (!status) {
+        clip->form = *wf_page_shown_form(shown);
+        status = wf_packer_new(&clip->form.shape, &clip->fields, err);
+    }
+    if (!status) status = pack_frames(m, clip, video, shown, err);
+    wf_page_shown_free(shown);
+    if (video) wf_video_close(video);
+    if (status) return status;
+    wf_packer_data(clip->fields, &bytes);
+    m->packed_bytes += bytes;
+    return WEFT_OK;
+}
+
+/* The heat map in 255 steps, as one field of all lines. */
+static weft_status pack_heat(const making *m, wf_page_packed *clip, weft_error *err) {
+    const wf_pack_shape shape = {
+        .planes = 1, .width_px = {clip->info.width_px}, .lines = clip->info.lines};
+    size_t samples = (size_t)clip->info.width_px * (size_t)clip->info.lines;
+    uint8_t *steps = malloc(samples);
+    if (!steps) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the heat map");
+    for (size_t i = 0; i < samples; i++)
+        steps[i] = (uint8_t)lrint(
+            255 * fmin(fmax((double)clip->figures.heat[i] / m->page.heat_high, 0), 1));
+    weft_status status = wf_packer_new(&shape, &clip->heat, err);
+    if (!status) status = wf_packer_add(clip->heat, (const uint8_t *const[]){steps}, err);
+    free(steps);
+    return status;
+}
+
+/* ---- Names ---- */
+
+static const char *file_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+static weft_status name_page(making *m, weft_error *err) {
+    const wf_page_request *r = request_of(m);
+    wf_text title = {0};
+    if (r->title) wf_text_add(&title, "%s", r->title);
+    for (size_t i = 0; i < r->clips; i++) {
+        const wf_page_clip *from = &r->clip[i];
+        wf_page_packed *clip = &m->page.clip[i];
+        clip->path = from->path;
+        clip->label = strdup(from->label ? from->label : file_name(from->path));
+        if (!clip->label) title.failed = true;
+        if (!r->title) wf_text_add(&title, "%s%s", i ? ", " : "", clip->label);
+    }
+    m->page.title = title.at;
+    return title.failed ? wf_fail(err, WEFT_NO_MEMORY, "out of memory") : WEFT_OK;
+}
+
+static void tell_lengths(const making *m) {
+    char text[160];
+    int64_t most = 0;
+    for (size_t i = 0; i < m->page.clips; i++)
+        if (m->page.clip[i].frames > most) most = m->page.clip[i].frames;
+    if (most == m->page.frames) return;
+    snprintf(text, sizeof text,
+             "clips are not equally long: of up to %" PRId64 " frames the first %" PRId64
+             " of each are shown",
+             most, m->page.frames);
+    warn(m, text);
+}
+
+static void tell_guesses(const making *m) {
+    char text[1024];
+    for (size_t i = 0; i < m->page.clips; i++) {
+        const wf_page_packed *clip = &m->page.clip[i];
+        if (clip->info.scan_known) continue;
+        snprintf(text, sizeof text,
+                 "%.500s does not say how it is scanned: it is taken for %s, %s; --raster says "
+                 "otherwise",
+                 clip->path, clip->info.raster.name, wf_raster_order(&clip->info.raster));
+        warn(m, text);
+    }
+}
+
+/* ---- All of it ---- */
+
+static weft_status gather(making *m, weft_error *err) {
+    wf_page *page = &m->page;
+    weft_status status = name_page(m, err);
+    for (size_t i = 0; i < page->clips && !status; i++) status = look_at(m, i, err);
+    if (!status) tell_guesses(m);
+    for (size_t i = 0; i < page->clips && !status; i++) {
+        status = measure(m, &page->clip[i], err);
+        if (!status) status = pack(m, &page->clip[i], err);
+        if (!i || page->clip[i].frames < page->frames) page->frames = page->clip[i].frames;
+    }
+    page->heat_high = wf_heat_top(page->heat_high);
+    for (size_t i = 0; i < page->clips && !status; i++)
+        status = pack_heat(m, &page->clip[i], err);
+    if (!status) tell_lengths(m);
+    return status;
+}
+
+static void release(wf_page *page) {
+    for (size_t i = 0; page->clip && i < page->clips; i++) {
+        free(page->clip[i].label);
+        free(page->clip[i].figures.heat);
+        wf_packer_free(page->clip[i].fields);
+        wf_packer_free(page->clip[i].heat);
+    }
+    free(page->clip);
+    free(page->title);
+}
+
+static weft_status check_ending(const char *path, weft_error *err) {
+    if (wf_name_ends_in(path, ".html") || wf_name_ends_in(path, ".htm")) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "%.500s: a page is HTML; name it such as look.html", path);
+}
+
+weft_status wf_page_check_name(const char *path, bool overwrite, weft_error *err) {
+    wf_outfile *file;
+    weft_status status = check_ending(path, err);
+    if (!status) status = wf_outfile_open(path, overwrite, &file, err);
+    if (!status) wf_outfile_abandon(file);
+    return status;
+}
+
+weft_status wf_page_make(const wf_page_request *request, const char *path, weft_error *err) {
+    making m = {.page = {.request = request, .clips = request->clips}, .began_s = wf_now_s()};
+    wf_outfile *file;
+    weft_status status = check_ending(path, err);
+    if (!status) status = wf_outfile_open(path, request->overwrite, &file, err);
+    if (status) return status;
+    m.page.clip = calloc(request->clips, sizeof *m.page.clip);
+    status = m.page.clip ? gather(&m, err) : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    if (!status) status = wf_page_write(&m.page, file, err);
+    release(&m.page);
+    if (!status) return wf_outfile_commit(file, err);
+    wf_outfile_abandon(file);
+    return status;
+}

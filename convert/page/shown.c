@@ -1,0 +1,175 @@
+/* Frames of any finished video as fields of 8-bit codes. */
+#include "convert/page/shown.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "color/codes/ycbcr.h"
+#include "color/space/builtin.h"
+#include "convert/job/colors.h"
+#include "convert/read/signal.h"
+
+struct wf_page_shown {
+    wf_video_info info;
+    wf_page_form form;
+    wf_signals *signals;
+    wf_signal *signal;
+    wf_luma luma;
+    wf_transform to_709;               /* of colors that are brought there */
+    float *line;                       /* [3][width_px] */
+    uint8_t *plane[2][WF_PACK_PLANES]; /* by parity */
+};
+
+/* ---- Settling ---- */
+
+/* Colors that a screen of Rec. 709 shows nearly right as they are coded stay so. */
+static const char *space_to_bring(const wf_video_info *info) {
+    if (info->layout == WF_LINEAR) return NULL; /* encoded as the raster has it, below */
+    if (info->transfer == WF_TRANSFER_PQ) return "rec2100-pq";
+    if (info->transfer == WF_TRANSFER_HLG) return "rec2100-hlg";
+    return info->raster.matrix == WF_2020 ? "rec2020" : NULL;
+}
+
+static int weight(double factor) {
+    return (int)lround(65536 * factor);
+}
+
+static wf_page_colors colors_of(wf_luma luma, bool full_range) {
+    const wf_ycbcr m = wf_ycbcr_of(luma);
+    double kr = (double)m.kr, kb = (double)m.kb, kg = 1 - kr - kb;
+    double y = full_range ? 1 : 255.0 / 219, c = full_range ? 1 : 255.0 / 224;
+    double red = 2 * (1 - kr) * c, blue = 2 * (1 - kb) * c;
+    return (wf_page_colors){.black = full_range ? 0 : 16,
+                            .luma = weight(y),
+                            .red_cr = weight(red),
+                            .green_cb = weight(kb * blue / kg),
+                            .green_cr = weight(kr * red / kg),
+                            .blue_cb = weight(blue)};
+}
+
+static wf_page_form form_of(const wf_video_info *info, bool brought) {
+    bool linear = info->layout == WF_LINEAR, even = info->width_px % 2 == 0;
+    bool ycbcr = info->layout != WF_RGB && !brought;
+    int across = linear ? (even ? 2 : 1) : info->across;
+    int chroma = ycbcr && across == 2 && even ? info->width_px / 2 : info->width_px;
+    wf_page_form form = {.shape = {.planes = 3,
+                                   .width_px = {info->width_px, chroma, chroma},
+                                   .lines = info->lines / 2},
+                         .ycbcr = ycbcr,
+                         .rounded = info->bits > 8,
+                         .brought = brought};
+    form.colors =
+        colors_of(wf_colors_of(info->raster.matrix)->luma, info->full_range && !linear);
+    return form;
+}
+
+static bool make_room(wf_page_shown *s) {
+    bool made = (s->line = malloc(3 * (size_t)s->info.width_px * sizeof *s->line));
+    for (int p = 0; p < WF_PACK_PLANES; p++)
+        for (int parity = 0; parity < 2; parity++) {
+            size_t samples = (size_t)s->form.shape.width_px[p] * (size_t)s->form.shape.lines;
+            made = made && (s->plane[parity][p] = malloc(samples));
+        }
+    return made;
+}
+
+weft_status wf_page_shown_new(const wf_video_info *info, wf_page_shown **out, weft_error *err) {
+    char why[512];
+    const char *space = space_to_bring(info);
+    wf_page_shown *s = calloc(1, sizeof *s);
+    if (!s) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    s->info = *info;
+    s->luma = wf_colors_of(info->raster.matrix)->luma;
+    s->form = form_of(info, space);
+    weft_status status = WEFT_OK;
+    if (space && !wf_builtin_transform(space, "rec709", &s->to_709, why, sizeof why))
+        status = wf_fail(err, WEFT_FAILED, "%s", why);
+    if (!status) status = wf_signals_new(info, &s->signals, err);
+    if (!status) status = wf_signal_new(s->signals, &s->signal, err);
+    if (!status && !make_room(s))
+        status = wf_fail(err, WEFT_NO_MEMORY, "no memory for fields of %dx%d", info->width_px,
+                         info->lines / 2);
+    if (status)
+        wf_page_shown_free(s);
+    else
+        *out = s;
+    return status;
+}
+
+void wf_page_shown_free(wf_page_shown *s) {
+    if (!s) return;
+    for (int p = 0; p < WF_PACK_PLANES; p++)
+        for (int parity = 0; parity < 2; parity++) free(s->plane[parity][p]);
+    free(s->line);
+    if (s->to_709.free) s->to_709.free(s->to_709.self);
+    wf_signal_free(s->signal);
+    wf_signals_free(s->signals);
+    free(s);
+}
+
+const wf_page_form *wf_page_shown_form(const wf_page_shown *s) {
+    return &s->form;
+}
+
+const uint8_t *const *wf_page_shown_field(const wf_page_shown *s, int parity) {
+    return (const uint8_t *const *)s->plane[parity];
+}
+
+/* ---- Frames ---- */
+
+static uint8_t code(float value) {
+    if (!(value > 0)) return 0;
+    return value >= 255 ? 255 : (uint8_t)(value + 0.5f);
+}
+
+static uint8_t *line_of(const wf_page_shown *s, int p, int y) {
+    return s->plane[y % 2][p] + (size_t)(y / 2) * (size_t)s->form.shape.width_px[p];
+}
+
+/* Y'CbCr: codes of 8 bits in the range of the video. */
+static void take_ycbcr(wf_page_shown *s, int p, int y) {
+    const wf_signal *signal = s->signal;
+    int width = s->form.shape.width_px[p];
+    bool halves = p && width < s->info.width_px, full = s->form.colors.black == 0;
+    const float *from = signal->ycbcr[p] + (size_t)y * (size_t)s->info.width_px;
+    if (halves)
+        from = signal->coded.plane[p] +
+               (size_t)wf_signal_chroma_line(signal, y) * (size_t)signal->coded.width_px[p];
+    float zero = p ? 128 : full ? 0 : 16, unit = full ? 255 : p ? 224 : 219;
+    uint8_t *to = line_of(s, p, y);
+    for (int x = 0; x < width; x++) to[x] = code(zero + unit * from[x]);
+}
+
+/* R'G'B' of a line, of the colors that the page is shown in. */
+static void find_rgb(wf_page_shown *s, int y, float *rgb[3]) {
+    size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
+    bool coded = !s->signal->is_ycbcr;
+    for (int p = 0; p < 3; p++) {
+        rgb[p] = s->line + (size_t)p * width;
+        const float *from = coded ? s->signal->coded.plane[p] : s->signal->ycbcr[p];
+        memcpy(rgb[p], from + at, width * sizeof *rgb[p]);
+    }
+    if (!coded) wf_rgb_of_ycbcr(s->luma, rgb[0], rgb[1], rgb[2], width);
+    if (s->form.brought) s->to_709.apply(s->to_709.self, rgb[0], rgb[1], rgb[2], width);
+}
+
+static void take_rgb(wf_page_shown *s, int y) {
+    float *rgb[3];
+    uint8_t *to[3] = {line_of(s, 0, y), line_of(s, 1, y), line_of(s, 2, y)};
+    find_rgb(s, y, rgb);
+    for (int x = 0; x < s->info.width_px; x++) {
+        uint8_t r = code(255 * rgb[0][x]), g = code(255 * rgb[1][x]), b = code(255 * rgb[2][x]);
+        to[0][x] = g;
+        to[1][x] = (uint8_t)(r - g);
+        to[2][x] = (uint8_t)(b - g);
+    }
+}
+
+void wf_page_shown_take(wf_page_shown *s, const wf_video_frame *frame) {
+    wf_signals_take(s->signals, frame, s->signal);
+    for (int y = 0; y < s->info.lines; y++) {
+        if (!s->form.ycbcr) take_rgb(s, y);
+        for (int p = 0; p < WF_PACK_PLANES && s->form.ycbcr; p++) take_ycbcr(s, p, y);
+    }
+}
