@@ -114,6 +114,80 @@ WEFT_API const char *weft_job_report(const weft_job *job);
 WEFT_API weft_status weft_job_plan(weft_job *job, const char *format, const char **text,
                                    weft_error *err);
 
+/* ---- Questions ------------------------------------------------------------------------------
+ *
+ * What the commands measure, verify, info, filters, composite and plot do. They ask about the
+ * inputs of a job, whose progress and warning functions, weft_job_cancel, and options (of them
+ * max-memory, and of composite also those of the output) count as for weft_job_run. Afterwards
+ * weft_job_report is what the command prints with --json, and of composite as after
+ * weft_job_run; share/weft/schema describes each. A job can be asked again and otherwise. Its
+ * command does not matter.
+ *
+ * Each takes a structure that can grow: `size` is sizeof of it where the caller was compiled,
+ * and what an older caller does not have is not given; WEFT_USAGE where a newer one gives what
+ * this library does not know. NULL for the structure gives nothing. A member is the text that
+ * the command's option of its name takes (weft COMMAND --help tells); NULL: not given. Texts
+ * and structures are borrowed for the call.
+ *
+ * WEFT_FAILED and other failures: err says what is wrong with the first file that something is
+ * wrong with, and of how many others; the report has what was found of all of them. */
+
+/* weft measure: figures of video. `limit` has commas between limits, of which WEFT_FAILED says
+ * that one is exceeded; `heatmap` is a PNG file that is written. */
+typedef struct weft_measure {
+    size_t size;
+    const char *raster, *chart, *display, *view_distance, *peak, *against, *limit, *heatmap,
+        *heat;
+} weft_measure;
+WEFT_API weft_status weft_job_measure(weft_job *job, const weft_measure *asked,
+                                      weft_error *err);
+
+/* weft verify: what delivered files say and hold, against a raster or profile. WEFT_FAILED if
+ * something is wrong with one. */
+typedef struct weft_verify {
+    size_t size;
+    const char *profile, *raster;
+} weft_verify;
+WEFT_API weft_status weft_job_verify(weft_job *job, const weft_verify *asked, weft_error *err);
+
+/* Delivery profile i; false past the end. out->size is the caller's to set, and not more is
+ * filled. Strings have static storage. */
+typedef struct weft_profile {
+    size_t size;
+    const char *name, *about; /* about: with where it was read */
+    const char *rasters;      /* that it allows, with blanks between */
+    const char *not_checked;  /* what the format asks for besides; NULL: nothing */
+} weft_profile;
+WEFT_API bool weft_profile_at(size_t index, weft_profile *out);
+
+/* weft info: what files and sequences say of themselves, and what they would be taken for. */
+WEFT_API weft_status weft_job_info(weft_job *job, weft_error *err);
+
+/* weft filters: all apertures, or the responses of the one that is named; the job's options
+ * raster and temporal-width count. `plot` and `frontier` are PNG files that are written. The
+ * job needs no input. */
+typedef struct weft_filters {
+    size_t size;
+    const char *name; /* "shaped", "design:sharp=0.7"; NULL: all */
+    const char *input_lines, *plot, *frontier;
+} weft_filters;
+WEFT_API weft_status weft_job_filters(weft_job *job, const weft_filters *asked,
+                                      weft_error *err);
+
+/* weft composite: what a television shows of the job's one input, written to its output as
+ * weft_job_run would. The job's raster becomes the input's. */
+typedef struct weft_composite {
+    size_t size;
+    const char *system, *encoder, *decoder, *raster;
+    const char *audio; /* NULL: the job's option, else the input's */
+} weft_composite;
+WEFT_API weft_status weft_job_composite(weft_job *job, const weft_composite *asked,
+                                        weft_error *err);
+
+/* weft plot: draws what the JSON file at path tells (weft plot --help) into output, .svg or
+ * .png, which replaces what is there. */
+WEFT_API weft_status weft_plot(const char *path, const char *output, weft_error *err);
+
 /* ---- Samples from a renderer ----------------------------------------------------------------
  */
 

@@ -220,6 +220,8 @@ static weft_status next_frame(measuring *m, const wf_video_frame **frame, weft_e
 static weft_status measure_frames(measuring *m, weft_error *err) {
     for (;; m->frames++) {
         const wf_video_frame *frame;
+        if (m->options->cancelled && *m->options->cancelled)
+            return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
         weft_status status = next_frame(m, &frame, err);
         if (!status) status = compare(m, frame, err);
         if (status || !frame) return status;

@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_CHECK_MEASURE_OPTIONS_H
 #define WF_CONVERT_CHECK_MEASURE_OPTIONS_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -44,6 +45,8 @@ typedef struct wf_measure_options {
     size_t max_memory_bytes;
     weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
     void *progress_user;
+    const volatile sig_atomic_t
+        *cancelled; /* looked at before every frame; NULL: nobody asks */
 } wf_measure_options;
 
 #endif

@@ -164,24 +164,6 @@ weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, 
     return WEFT_OK;
 }
 
-/* ---- Values ---- */
-
-weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,
-                          weft_error *err) {
-    if (!value) return WEFT_OK;
-    const char *word = takes;
-    for (int i = 0; word; i++) {
-        size_t length = strcspn(word, "|");
-        if (strlen(value) == length && !strncmp(word, value, length)) {
-            *index = i;
-            return WEFT_OK;
-        }
-        word = word[length] ? word + length + 1 : NULL;
-    }
-    return wf_fail(err, WEFT_USAGE, "--%s: '%.200s' will not do; it takes one of %s", name,
-                   value, takes);
-}
-
 weft_status wf_cmd_meter(wf_meter *meter, const char *style, bool quiet, weft_error *err) {
     if (wf_meter_init(meter, quiet ? "none" : style)) return WEFT_OK;
     return wf_fail(err, WEFT_USAGE,

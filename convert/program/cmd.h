@@ -57,11 +57,6 @@ weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_list *files, void *state
                         wf_cmd_list *kept, weft_error *err);
 void wf_cmd_forget(wf_cmd_list *kept);
 
-/* Which of the words of `takes` ("a|b|c") the value of --name is: *index gets it, and keeps
- * what it is where nothing was given. */
-weft_status wf_cmd_choose(const char *name, const char *takes, const char *value, int *index,
-                          weft_error *err);
-
 /* The row of the option --progress, for a command's table. */
 #define WF_CMD_PROGRESS(group)                                                                 \
     {                                                                                          \
@@ -80,10 +75,16 @@ void wf_cmd_help(const wf_cmd *cmd);
 /* Prints what wf_json_finish returned, and frees it. */
 weft_status wf_cmd_print_json(char *text, weft_error *err);
 
-/* Has an entry point of the plot module (convert/plot/plot.h) draw into a PNG file, which
- * replaces one that is there. */
-weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
-                        weft_error *err);
+/* What commands that ask about files begin with: a job whose inputs are the operands. *job is
+ * NULL after a failure; whatever the status, wf_cmd_answer frees it. */
+weft_status wf_cmd_question(const wf_cmd *cmd, int argc, char **argv, void *state,
+                            weft_job **job, weft_error *err);
+
+/* What they end with: prints the report, if print and if there is one, and returns status. */
+weft_status wf_cmd_answer(weft_job *job, bool print, weft_status status);
+
+/* Says a trouble with a file after what was printed so far; a weft_warning_fn. */
+void wf_cmd_trouble(const char *text, void *user);
 
 /* "weft: " and a message on standard error, colored on a terminal unless NO_COLOR is set. */
 void wf_cmd_say(const char *kind, const char *text);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/ask/asking.h"
 #include "convert/base/fail.h"
 #include "convert/job/delivery.h"
 #include "convert/program/cmd.h"
@@ -302,7 +303,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
     if (status) return status;
     if (operands != 1)
         return wf_fail(err, WEFT_USAGE, "completion takes the name of one shell: " SHELLS);
-    if (wf_cmd_choose("completion", SHELLS, argv[0], &shell, NULL))
+    if (wf_ask_choose("completion", SHELLS, argv[0], &shell, NULL))
         return wf_fail(err, WEFT_USAGE,
                        "'%.200s': no shell that weft knows; completion takes one of " SHELLS,
                        argv[0]);

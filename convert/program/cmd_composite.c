@@ -1,50 +1,18 @@
 /* weft composite: what an NTSC or PAL television would show. */
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "convert/ask/composite.h"
 #include "convert/base/fail.h"
 #include "convert/job/options.h"
 #include "convert/program/cmd.h"
-#include "convert/run/broadcast.h"
 
 typedef struct composite_state {
-    const char *output, *raster, *system, *encoder, *decoder, *audio, *progress;
+    weft_composite asked;
+    const char *output, *progress;
     bool quiet;
     wf_meter meter;
 } composite_state;
-
-/* ---- Options ---- */
-
-/* Values of options, in the order of wf_tv_system, wf_tv_encoder and wf_tv_decoder. */
-static const char systems[] = "ntsc|pal", encoders[] = "cheap|filtered",
-                  decoders[] = "notch|comb2|comb3";
-
-typedef struct settled {
-    wf_broadcast set;
-    wf_tv_system system;
-    wf_raster raster;
-} settled;
-
-static weft_status settle(composite_state *state, settled *s, weft_error *err) {
-    int system = -1, encoder = WF_ENCODER_CHEAP, decoder = WF_DECODER_NOTCH;
-    char why[512];
-    weft_status status = wf_cmd_choose("system", systems, state->system, &system, err);
-    if (!status) status = wf_cmd_choose("encoder", encoders, state->encoder, &encoder, err);
-    if (!status) status = wf_cmd_choose("decoder", decoders, state->decoder, &decoder, err);
-    if (status) return status;
-    if (state->raster && !wf_raster_parse(state->raster, &s->raster, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "--raster: %s", why);
-    status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
-    if (status) return status;
-    s->system = (wf_tv_system)(system < 0 ? 0 : system);
-    s->set = (wf_broadcast){.raster = state->raster ? &s->raster : NULL,
-                            .system = system < 0 ? NULL : &s->system,
-                            .keep_sound = !state->audio,
-                            .encoder = (wf_tv_encoder)encoder,
-                            .decoder = (wf_tv_decoder)decoder};
-    return WEFT_OK;
-}
 
 /* ---- Running ---- */
 
@@ -65,12 +33,13 @@ static void on_progress(const weft_progress *progress, void *user) {
     wf_meter_update(&shown, &state->meter);
 }
 
-static weft_status show(composite_state *state, const settled *s, weft_job *job,
-                        weft_error *err) {
+static weft_status show(composite_state *state, weft_job *job, weft_error *err) {
+    weft_status status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
+    if (status) return status;
     weft_job_on_progress(job, on_progress, state);
     weft_job_on_warning(job, on_warning, state);
     wf_cmd_catch_signals(job);
-    weft_status status = wf_broadcast_run(job, &s->set, err);
+    status = weft_job_composite(job, &state->asked, err);
     wf_cmd_ignore_signals();
     wf_meter_clear(&state->meter);
     if (status || state->quiet || !state->meter.show || state->progress) return status;
@@ -82,35 +51,13 @@ static weft_status show(composite_state *state, const settled *s, weft_job *job,
     return WEFT_OK;
 }
 
-static weft_status read_arguments(const wf_cmd *cmd, int argc, char **argv,
-                                  composite_state *state, weft_job *job, weft_error *err) {
-    int inputs = 0;
-    weft_status status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
-    if (status) return status;
-    if (!inputs)
-        return wf_fail(err, WEFT_USAGE,
-                       "nothing to show; give video, such as shot.y4m or out.####.dpx");
-    if (inputs > 1)
-        return wf_fail(
-            err, WEFT_USAGE,
-            "one input at a time, and '%.200s' is a second; a sequence is one when it "
-            "is given as a pattern, in quotes: 'shot.####.dpx'",
-            argv[1]);
-    status = weft_job_add_input(job, argv[0], err);
-    if (!status && state->output) status = weft_job_set_output(job, state->output, err);
-    return !status && state->audio ? weft_job_set(job, "audio", state->audio, err) : status;
-}
-
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
-    composite_state state = {0};
-    settled s = {0};
-    weft_job *job = weft_job_new();
-    if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    weft_status status = read_arguments(cmd, argc, argv, &state, job, err);
-    if (!status) status = settle(&state, &s, err);
-    if (!status) status = show(&state, &s, job, err);
-    weft_job_free(job);
-    return status;
+    composite_state state = {.asked = {.size = sizeof state.asked}};
+    weft_job *job;
+    weft_status status = wf_cmd_question(cmd, argc, argv, &state, &job, err);
+    if (!status && state.output) status = weft_job_set_output(job, state.output, err);
+    if (!status) status = show(&state, job, err);
+    return wf_cmd_answer(job, false, status);
 }
 
 /* ---- What it says of itself ---- */
@@ -118,20 +65,21 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
 static const char coding[] = "Composite", writing[] = "Output and messages";
 
 static const wf_cmd_option options[] = {
-    {{"system", systems, "the raster's: 525 lines ntsc, 625 pal", "The color system.", coding},
-     .offset = offsetof(composite_state, system)},
-    {{"encoder", encoders, "cheap",
+    {{"system", WF_ASK_SYSTEMS, "the raster's: 525 lines ntsc, 625 pal", "The color system.",
+      coding},
+     .offset = offsetof(composite_state, asked.system)},
+    {{"encoder", WF_ASK_ENCODERS, "cheap",
       "cheap adds the color to luma as it is, as typical recorders do; filtered first takes "
       "the luma around the subcarrier out.",
       coding},
-     .offset = offsetof(composite_state, encoder)},
-    {{"decoder", decoders, "notch",
+     .offset = offsetof(composite_state, asked.encoder)},
+    {{"decoder", WF_ASK_DECODERS, "notch",
       "notch takes all around the subcarrier for color; comb2 and comb3 only what alternates "
       "with it between a line and one or two others of its field.",
       coding},
-     .offset = offsetof(composite_state, decoder)},
+     .offset = offsetof(composite_state, asked.decoder)},
     {{"raster", "NAME", "as the file says", "What raster the input is in.", coding},
-     .offset = offsetof(composite_state, raster)},
+     .offset = offsetof(composite_state, asked.raster)},
     {{"output", "OUTPUT", NULL,
       "Where to write: .y4m, .v210, .uyvy, a container, or a sequence such as out.####.png "
       "(tif, "
@@ -144,7 +92,7 @@ static const wf_cmd_option options[] = {
       "silence or "
       "of a tone.",
       writing},
-     .offset = offsetof(composite_state, audio)},
+     .offset = offsetof(composite_state, asked.audio)},
     {WF_CMD_PROGRESS(writing), .offset = offsetof(composite_state, progress)},
     {{"quiet", NULL, NULL, "Say nothing but errors.", writing},
      .letter = 'q',

@@ -1,57 +1,18 @@
 /* weft filters: apertures and their responses. */
-#include "convert/program/filters_parts.h"
-
 #include <stdio.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/job/job.h"
 #include "convert/job/options.h"
 #include "convert/program/cmd.h"
+#include "convert/program/filters_print.h"
 #include "filters/base/spelling.h"
 
 typedef struct filters_state {
-    const char *plot, *frontier, *input_lines;
+    weft_filters asked;
     char joined[320]; /* "design" and what follows, from two arguments */
     bool json;
 } filters_state;
-
-static weft_status ask(const filters_state *state, const weft_job *job, wf_filters_query *query,
-                       weft_error *err) {
-    char why[512];
-    wf_rational lines = {0, 1};
-    query->raster = job->raster;
-    query->tau = wf_ratio_given(job->temporal_width) ? wf_ratio_value(job->temporal_width) : -1;
-    if (query->name && !wf_aperture_parse(query->name, &query->aperture, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
-    if (query->name && !wf_filters_design(query, why, sizeof why))
-        return wf_fail(err, query->design.no_memory ? WEFT_NO_MEMORY : WEFT_FAILED, "%s", why);
-    if (state->frontier && (query->name || state->plot || state->input_lines))
-        return wf_fail(err, WEFT_USAGE,
-                       "--frontier shows every aperture there is; leave out %s",
-                       query->name   ? query->name
-                       : state->plot ? "--plot"
-                                     : "--input-lines");
-    bool fits = !state->input_lines || (wf_ratio_parse(state->input_lines, &lines) &&
-                                        lines.den == 1 && lines.num >= 1 && lines.num <= 16384);
-    if (!fits)
-        return wf_fail(err, WEFT_USAGE,
-                       "--input-lines: '%.200s' will not do; it takes a whole number from 1 to "
-                       "16384, such as 1080",
-                       state->input_lines);
-    query->input_lines = (int)lines.num;
-    return WEFT_OK;
-}
-
-static weft_status answer(const filters_state *state, const wf_filters_query *query,
-                          weft_error *err) {
-    if (state->frontier) return wf_filters_frontier(state->frontier, state->json, err);
-    weft_status status = state->plot ? wf_filters_plot(query, state->plot, err) : WEFT_OK;
-    if (status) return status;
-    if (state->json) return wf_filters_print_json(query, err);
-    wf_filters_print(query);
-    return WEFT_OK;
-}
 
 /* Refuses several names, which most likely are keys of a design without commas, or a misspelled
  * 'design'. */
@@ -76,22 +37,28 @@ static weft_status refuse(int names, char **name, weft_error *err) {
                    name[1]);
 }
 
+/* The name of an aperture that the operands are. */
+static weft_status take_name(filters_state *state, int names, char **name, weft_error *err) {
+    if (names == 2 && !strcmp(name[0], "design")) {
+        snprintf(state->joined, sizeof state->joined, "design:%s", name[1]);
+        state->asked.name = state->joined;
+        return WEFT_OK;
+    }
+    state->asked.name = names ? name[0] : NULL;
+    return names > 1 ? refuse(names, name, err) : WEFT_OK;
+}
+
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
-    filters_state state = {0};
-    wf_filters_query query = {0};
+    filters_state state = {.asked = {.size = sizeof state.asked}};
+    wf_filters_query query;
     int names = 0;
     weft_job *job = weft_job_new();
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = wf_cmd_parse(cmd, argc, argv, &state, job, &names, err);
-    query.name = names ? argv[0] : NULL;
-    if (names == 2 && !strcmp(argv[0], "design")) {
-        snprintf(state.joined, sizeof state.joined, "design:%s", argv[1]);
-        query.name = state.joined;
-    } else if (!status && names > 1)
-        status = refuse(names, argv, err);
-    if (!status) status = ask(&state, job, &query, err);
-    weft_job_free(job);
-    return status ? status : answer(&state, &query, err);
+    if (!status) status = take_name(&state, names, argv, err);
+    if (!status) status = wf_ask_filters(job, &state.asked, state.json, &query, err);
+    if (!status && !state.json && !state.asked.frontier) wf_filters_print(&query);
+    return wf_cmd_answer(job, state.json && !status, status);
 }
 
 static const char group[] = "Options";
@@ -99,14 +66,14 @@ static const char group[] = "Options";
 static const wf_cmd_option options[] = {
     {{"input-lines", "N", NULL,
       "Also what the weights for N input lines leave, stretched over the raster's.", group},
-     .offset = offsetof(filters_state, input_lines)},
+     .offset = offsetof(filters_state, asked.input_lines)},
     {{"plot", "FILE", NULL, "Draw the vertical response into a PNG file.", group},
-     .offset = offsetof(filters_state, plot)},
+     .offset = offsetof(filters_state, asked.plot)},
     {{"frontier", "FILE", NULL,
       "Draw the least flicker there is against sharpness, and where the apertures lie, into a "
       "PNG file, without a NAME; with --json print it too.",
       group},
-     .offset = offsetof(filters_state, frontier)},
+     .offset = offsetof(filters_state, asked.frontier)},
     {{"json", NULL, NULL, "Print JSON.", group}, .offset = offsetof(filters_state, json)},
 };
 

@@ -1,227 +1,37 @@
 /* weft info: what a file or a sequence is. */
 #include <stdio.h>
-#include <sys/stat.h>
 
-#include "convert/base/fail.h"
-#include "convert/base/pattern.h"
-#include "convert/job/taken.h"
-#include "convert/media/kinds.h"
+#include "convert/ask/info.h"
 #include "convert/program/cmd.h"
-#include "convert/program/info_facts.h"
-#include "convert/read/rate.h"
-#include "convert/read/sequence.h"
-#include "convert/read/source.h"
-#include "convert/read/video.h"
 
 typedef struct info_state {
     bool json;
 } info_state;
 
-/* ---- Pictures ---- */
-
-static void fact_window(wf_facts *facts, const char *key, wf_box box) {
-    char text[96];
-    snprintf(text, sizeof text, "%dx%d at %d,%d", box.x1 - box.x0, box.y1 - box.y0, box.x0,
-             box.y0);
-    if (!facts->as_json) {
-        wf_fact_text(facts, key, text);
-        return;
-    }
-    wf_json_open(&facts->json, key, '{');
-    wf_json_int(&facts->json, "x", box.x0);
-    wf_json_int(&facts->json, "y", box.y0);
-    wf_json_int(&facts->json, "width", box.x1 - box.x0);
-    wf_json_int(&facts->json, "height", box.y1 - box.y0);
-    wf_json_close(&facts->json);
-}
-
-static void tell_picture(wf_facts *facts, const wf_image_info *info) {
-    wf_fact_text(facts, "format", info->format);
-    wf_fact_int(facts, "width", info->display.x1 - info->display.x0);
-    wf_fact_int(facts, "height", info->display.y1 - info->display.y0);
-    fact_window(facts, "display_window", info->display);
-    fact_window(facts, "data_window", info->data);
-    wf_fact_real(facts, "pixel_aspect", info->pixel_aspect);
-    if (wf_ratio_given(info->rate) && facts->as_json)
-        wf_fact_ratio(facts, "rate", info->rate, '/');
-    if (wf_ratio_given(info->time_s)) wf_fact_ratio(facts, "time", info->time_s, '/');
-    if (*info->timecode) wf_fact_text(facts, "timecode", info->timecode);
-}
-
-/* The sequence may lose what is missing. */
-static void take_rate(const wf_image_info *info, wf_sequence *sequence, wf_taken_list *taken) {
-    wf_shown shown;
-    char text[48] = "irregular";
-    if (wf_shown_by_files("", info, sequence, &shown, NULL)) return;
-    if (!shown.times_s) wf_rate_text(shown.rate, text);
-    wf_take(taken, "rate", text, "file");
-    wf_shown_free(&shown);
-}
-
-/* A layer that the file has: a line, or an object of "layers". */
-static void tell_layer(void *user, int part, const char *part_name, const char *layer,
-                       const char *channels) {
-    wf_facts *facts = user;
-    char text[900];
-    if (facts->as_json) {
-        wf_json_open(&facts->json, NULL, '{');
-        wf_json_int(&facts->json, "part", part);
-        wf_json_text(&facts->json, "part_name", part_name);
-        wf_json_text(&facts->json, "layer", layer);
-        wf_json_text(&facts->json, "channels", channels);
-        wf_json_close(&facts->json);
-        return;
-    }
-    snprintf(text, sizeof text, "part %d%s%s%s: %s (%s)", part, *part_name ? " '" : "",
-             part_name, *part_name ? "'" : "", *layer ? layer : "without a name", channels);
-    wf_fact_text(facts, "has_layer", text);
-}
-
-static weft_status tell_layers(const char *path, wf_facts *facts, weft_error *err) {
-    if (facts->as_json) wf_json_open(&facts->json, "layers", '[');
-    weft_status status = wf_source_layers(path, tell_layer, facts, err);
-    if (facts->as_json) wf_json_close(&facts->json);
-    return status;
-}
-
-/* A file of a sequence. */
-static weft_status tell_file(const wf_subframe_ref *ref, wf_sequence *sequence, wf_facts *facts,
-                             weft_error *err) {
-    const wf_source_options options = {.nan_fix = WF_NAN_BOX3,
-                                       .max_memory_bytes = (size_t)2 << 30};
-    wf_subframe *subframe;
-    wf_taken_list taken = {0};
-    tell_layers(ref->path, facts, NULL); /* what is wrong with it is told when it is opened */
-    weft_status status = wf_subframe_open(ref->path, ref->part, &options, &subframe, err);
-    if (status) return status;
-    tell_picture(facts, wf_subframe_info(subframe));
-    wf_subframe_take(subframe, &taken);
-    take_rate(wf_subframe_info(subframe), sequence, &taken);
-    wf_facts_taken(facts, &taken);
-    const wf_file_colors *colors = wf_subframe_colors(subframe);
-    if (*colors->trouble) wf_fact_text(facts, "trouble", colors->trouble);
-    if (*colors->warning) wf_fact_text(facts, "warning", colors->warning);
-    wf_subframe_close(subframe);
-    return WEFT_OK;
-}
-
-/* ---- Sequences ---- */
-
-static void fact_number(wf_facts *facts, const char *key, wf_rational number) {
-    if (number.den == 1)
-        wf_fact_int(facts, key, number.num);
-    else
-        wf_fact_real(facts, key, wf_ratio_value(number));
-}
-
-static void list_missing(wf_facts *facts, const wf_sequence *sequence) {
-    wf_json_open(&facts->json, "missing", '[');
-    for (size_t k = 0; k < sequence->count; k++)
-        if (!sequence->refs[k].path) fact_number(facts, NULL, sequence->refs[k].number);
-    wf_json_close(&facts->json);
-}
-
-/* Tells people how many numbers are missing, and the first eight of them. */
-static void sum_up_missing(wf_facts *facts, const wf_sequence *sequence) {
-    char text[256];
-    int used = snprintf(text, sizeof text, "%zu", sequence->missing), shown = 0;
-    for (size_t k = 0; k < sequence->count && shown <= 8; k++) {
-        if (sequence->refs[k].path) continue;
-        const char *before = shown ? ", " : ": ";
-        used += shown == 8 ? snprintf(text + used, sizeof text - (size_t)used, "%s..", before)
-                           : snprintf(text + used, sizeof text - (size_t)used, "%s%.9g", before,
-                                      wf_ratio_value(sequence->refs[k].number));
-        shown++;
-    }
-    wf_fact_text(facts, "missing", text);
-}
-
-static weft_status tell_refs(wf_facts *facts, wf_sequence *sequence, weft_error *err) {
-    size_t present = 0, last = sequence->count - 1;
-    wf_fact_text(facts, "kind", "sequence");
-    wf_fact_int(facts, "subframes", (int64_t)sequence->count);
-    fact_number(facts, "first", sequence->refs[0].number);
-    fact_number(facts, "last", sequence->refs[last].number);
-    (facts->as_json ? list_missing : sum_up_missing)(facts, sequence);
-    while (present < last && !sequence->refs[present].path) present++;
-    const wf_subframe_ref *ref = &sequence->refs[present];
-    if (*sequence->notice) wf_fact_text(facts, "notice", sequence->notice);
-    return ref->path ? tell_file(ref, sequence, facts, err) : WEFT_OK;
-}
-
-static weft_status tell_sequence(char *path, wf_facts *facts, weft_error *err) {
-    wf_sequence sequence = {0};
-    weft_status status = wf_sequence_expand(&path, 1, NULL, &sequence, err);
-    if (!status) status = tell_refs(facts, &sequence, err);
-    wf_sequence_free(&sequence);
-    return status;
-}
-
-/* ---- The command ---- */
-
-static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
-    struct stat about;
-    bool exists = !stat(path, &about), is_y4m = false;
-    if (exists ? S_ISDIR(about.st_mode) : wf_pattern_is(path))
-        return tell_sequence(path, facts, err);
-    weft_status status = wf_refuse_kind(path, err);
-    if (status) return status;
-    status = wf_info_y4m(path, facts, &is_y4m, err);
-    if (status || is_y4m) return status;
-    if (wf_video_is(path)) return wf_info_video(path, facts, err);
-    int timed = 0; /* parts that are subframes, and no layers of one picture */
-    if (!wf_source_timed_parts(path, &timed, NULL, NULL, NULL) && timed)
-        return tell_sequence(path, facts, err);
-    wf_fact_text(facts, "kind", "picture");
-    wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
-    return tell_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);
-}
-
-static weft_status tell_as_member(char *path, wf_facts *facts, weft_error *err) {
-    wf_json_open(&facts->json, NULL, '{');
-    wf_json_text(&facts->json, "path", path);
-    weft_status status = tell(path, facts, err);
-    if (status) wf_json_text(&facts->json, "error", err->text);
-    wf_json_close(&facts->json);
-    return status;
-}
-
-static weft_status tell_as_lines(char *path, wf_facts *facts, weft_error *err) {
+static void print_file(void *user, const char *path) {
+    (void)user;
     puts(path);
-    return tell(path, facts, err);
 }
 
-/* Tells about every file; one that cannot be read does not stop the others. */
-static weft_status tell_all(int count, char **paths, wf_facts *facts) {
-    weft_status worst = WEFT_OK;
-    for (int i = 0; i < count; i++) {
-        weft_error trouble = {""};
-        weft_status status =
-            (facts->as_json ? tell_as_member : tell_as_lines)(paths[i], facts, &trouble);
-        if (!status) continue;
-        fflush(stdout);
-        wf_cmd_say("", trouble.text);
-        worst = status;
+/* Prints "key value"; '_' is shown as a blank. */
+static void print_line(void *user, const char *key, const char *value) {
+    (void)user;
+    printf("  ");
+    for (int column = 0; column < 18; column++) {
+        putchar(*key == '_' || !*key ? ' ' : *key);
+        key += *key != '\0';
     }
-    return worst;
+    puts(value);
 }
 
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    const wf_info_tell lines = {NULL, print_file, print_line};
     info_state state = {0};
-    int count = 0;
-    weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &count, err);
-    if (status) return status;
-    if (!count)
-        return wf_fail(err, WEFT_USAGE,
-                       "nothing to tell about; give a file, a pattern such as "
-                       "shot.####.exr, or a directory");
-    wf_facts facts = {.as_json = state.json};
-    if (!facts.as_json) return tell_all(count, argv, &facts);
-    wf_json_open(&facts.json, NULL, '{');
-    wf_json_open(&facts.json, "files", '[');
-    status = tell_all(count, argv, &facts);
-    weft_status printed = wf_cmd_print_json(wf_json_finish(&facts.json), err);
-    return status ? status : printed;
+    weft_job *job;
+    weft_status status = wf_cmd_question(cmd, argc, argv, &state, &job, err);
+    if (!status)
+        status = wf_ask_info(job, state.json ? NULL : &lines, wf_cmd_trouble, NULL, err);
+    return wf_cmd_answer(job, state.json, status);
 }
 
 static const wf_cmd_option options[] = {

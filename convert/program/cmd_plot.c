@@ -1,44 +1,13 @@
 /* weft plot: numbers in a JSON file as a plot. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "convert/base/fail.h"
-#include "convert/base/names.h"
 #include "convert/program/cmd.h"
-#include "convert/program/plot_file.h"
 
 typedef struct plot_state {
     const char *output;
 } plot_state;
 
-/* The ending of a name tells; standard output is SVG. */
-static weft_status choose_format(const char *output, wf_plot_format *format, weft_error *err) {
-    if (!output)
-        return wf_fail(err, WEFT_USAGE,
-                       "no output; say -o FILE.svg or FILE.png, or -o - for an SVG on standard "
-                       "output");
-    *format = WF_PLOT_SVG;
-    if (!strcmp(output, "-") || wf_name_ends_in(output, ".svg")) return WEFT_OK;
-    *format = WF_PLOT_PNG;
-    if (wf_name_ends_in(output, ".png")) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "%.300s: a plot is written as .svg or .png", output);
-}
-
-static weft_status draw(const char *input, const char *output, wf_plot_format format,
-                        weft_error *err) {
-    wf_plot_file *file = malloc(sizeof *file);
-    if (!file) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    weft_status status = wf_plot_file_read(input, file, err);
-    file->plot.format = format;
-    if (!status) status = wf_cmd_draw("wf_plot_draw", &file->plot, output, err);
-    wf_plot_file_free(file);
-    free(file);
-    return status;
-}
-
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
     plot_state state = {0};
-    wf_plot_format format;
     int files = 0;
     weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &files, err);
     if (status) return status;
@@ -46,8 +15,7 @@ static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err
         return wf_fail(err, WEFT_USAGE,
                        "plot takes one JSON file, or - for standard input; it was given %d",
                        files);
-    status = choose_format(state.output, &format, err);
-    return status ? status : draw(argv[0], state.output, format, err);
+    return weft_plot(argv[0], state.output, err);
 }
 
 static const wf_cmd_option options[] = {

@@ -1,20 +1,15 @@
 /* weft verify: whether a delivered file says and holds what it should. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "convert/base/fail.h"
+#include "convert/ask/verify.h"
 #include "convert/base/json.h"
-#include "convert/check/verify/verify.h"
-#include "convert/job/report.h"
 #include "convert/program/cmd.h"
 
 typedef struct verify_state {
-    const char *profile_name, *raster_name, *progress;
+    weft_verify asked;
+    const char *progress;
     bool json, list;
     wf_meter meter;
-    wf_raster raster;
-    wf_verify_options options;
 } verify_state;
 
 /* ---- Telling ---- */
@@ -22,7 +17,10 @@ typedef struct verify_state {
 static const char *const verdicts[] = {
     [WF_RIGHT] = "right", [WF_WRONG] = "WRONG", [WF_OPEN] = "open"};
 
-static void print_findings(const char *path, const wf_verification *v) {
+static void print_findings(void *user, const char *path, const wf_verification *v) {
+    verify_state *s = user;
+    wf_meter_clear(&s->meter);
+    if (s->json) return;
     printf("%s: held to %s%s%s\n", path, *v->raster.name ? v->raster.name : "no raster",
            v->profile ? ", " : "", v->profile ? v->profile->name : "");
     for (size_t i = 0; i < v->count; i++) {
@@ -33,31 +31,8 @@ static void print_findings(const char *path, const wf_verification *v) {
     }
 }
 
-static void add_findings(wf_json *json, const char *path, const wf_verification *v) {
-    static const char *const words[] = {
-        [WF_RIGHT] = "right", [WF_WRONG] = "wrong", [WF_OPEN] = "open"};
-    wf_json_open(json, NULL, '{');
-    wf_json_text(json, "file", path);
-    wf_json_text(json, "profile", v->profile ? v->profile->name : NULL);
-    wf_report_raster(json, "raster", *v->raster.name ? &v->raster : NULL);
-    wf_json_bool(json, "right", !v->wrong);
-    wf_json_open(json, "checks", '[');
-    for (size_t i = 0; i < v->count; i++) {
-        const wf_finding *f = &v->finding[i];
-        wf_json_open(json, NULL, '{');
-        wf_json_text(json, "check", f->check);
-        wf_json_text(json, "verdict", words[f->verdict]);
-        wf_json_text(json, "is", f->is);
-        wf_json_text(json, "should", *f->should ? f->should : NULL);
-        wf_json_text(json, "by", f->by);
-        wf_json_close(json);
-    }
-    wf_json_close(json);
-    wf_json_close(json);
-}
-
 static weft_status list_profiles(bool as_json, weft_error *err) {
-    const wf_profile *p;
+    const wf_delivery_profile *p;
     wf_json json = {0};
     if (as_json) wf_json_open(&json, NULL, '[');
     for (size_t i = 0; (p = wf_profile_at(i)); i++) {
@@ -77,69 +52,31 @@ static weft_status list_profiles(bool as_json, weft_error *err) {
     return as_json ? wf_cmd_print_json(wf_json_finish(&json), err) : WEFT_OK;
 }
 
+/* Takes the line of progress away first. */
+static void say_trouble(const char *text, void *user) {
+    verify_state *s = user;
+    wf_meter_clear(&s->meter);
+    wf_cmd_trouble(text, NULL);
+}
+
 /* ---- Verifying ---- */
 
-static weft_status read_state(verify_state *s, int files, weft_error *err) {
-    char why[512];
-    s->options = (wf_verify_options){.max_memory_bytes = (size_t)2 << 30,
-                                     .progress = wf_meter_update,
-                                     .progress_user = &s->meter};
-    if (!files)
-        return wf_fail(err, WEFT_USAGE,
-                       "nothing to verify; give a delivered file, such as shot.mxf");
+static weft_status verify(verify_state *s, weft_job *job, weft_error *err) {
+    const wf_verify_tell tell = {s, print_findings, say_trouble};
     weft_status status = wf_cmd_meter(&s->meter, s->progress, false, err);
-    if (!status && s->profile_name) {
-        s->options.profile = wf_profile_find(s->profile_name, err);
-        if (!s->options.profile) return WEFT_USAGE;
-    }
-    if (status || !s->raster_name) return status;
-    s->options.raster = &s->raster;
-    if (wf_raster_parse(s->raster_name, &s->raster, why, sizeof why)) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "--raster: %s", why);
-}
-
-static weft_status verify_one(verify_state *s, const char *path, wf_json *json,
-                              weft_error *err) {
-    wf_verification v;
-    weft_status status = wf_verify(path, &s->options, &v, err);
-    wf_meter_clear(&s->meter);
-    if (status) return status;
-    if (json)
-        add_findings(json, path, &v);
-    else
-        print_findings(path, &v);
-    if (!v.wrong) return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED, "%.700s: %zu of %zu checks found it wrong", path, v.wrong,
-                   v.count);
-}
-
-static weft_status verify_all(verify_state *s, int count, char **paths, weft_error *err) {
-    wf_json json = {0};
-    weft_status worst = WEFT_OK;
-    wf_identities *all = wf_identities_read((const char *const *)paths, (size_t)count);
-    if (!all) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    s->options.others = all;
-    if (s->json) wf_json_open(&json, NULL, '[');
-    for (int i = 0; i < count; i++) {
-        weft_error trouble = {""};
-        weft_status status = verify_one(s, paths[i], s->json ? &json : NULL, &trouble);
-        fflush(stdout);
-        if (status) wf_cmd_say("", trouble.text);
-        if (status > worst) worst = status;
-    }
-    wf_identities_free(all);
-    if (s->json) wf_json_close(&json);
-    weft_status printed = s->json ? wf_cmd_print_json(wf_json_finish(&json), err) : WEFT_OK;
-    return worst ? worst : printed;
+    weft_job_on_progress(job, wf_meter_update, &s->meter);
+    return status ? status : wf_ask_verify(job, &s->asked, &tell, err);
 }
 
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
-    verify_state state = {0};
-    int count = 0;
-    weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &count, err);
-    if (!status && state.list) return list_profiles(state.json, err);
-    if (!status) status = read_state(&state, count, err);
-    return status ? status : verify_all(&state, count, argv, err);
+    verify_state state = {.asked = {.size = sizeof state.asked}};
+    weft_job *job;
+    weft_status status = wf_cmd_question(cmd, argc, argv, &state, &job, err);
+    if (!status && state.list)
+        status = list_profiles(state.json, err);
+    else if (!status)
+        status = verify(&state, job, err);
+    return wf_cmd_answer(job, state.json && !state.list, status);
 }
 
 static const char group[] = "Options";
@@ -149,10 +86,10 @@ static const char group[] = "Options";
 static const wf_cmd_option options[] = {
     {{"profile", "NAME", NULL, "Hold it to a delivery profile as well; --profiles lists them.",
       group},
-     .offset = STATE(profile_name)},
+     .offset = STATE(asked.profile)},
     {{"profiles", NULL, NULL, "List the profiles.", group}, .offset = STATE(list)},
     {{"raster", "NAME", "as it says", "The raster that it should be of.", group},
-     .offset = STATE(raster_name)},
+     .offset = STATE(asked.raster)},
     {WF_CMD_PROGRESS(group), .offset = STATE(progress)},
     {{"json", NULL, NULL, "Print JSON: an array with an object for each file.", group},
      .offset = STATE(json)},

@@ -3,10 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "convert/program/filters_parts.h"
+#include "convert/program/filters_print.h"
 #include "filters/aperture/flicker.h"
-
-/* ---- For people ---- */
 
 static void print_wish(const wf_design_wish *w) {
     printf("\nDesigned: %g lines to each side, %g px wide; overshoot at most %.4g %%, "
@@ -62,49 +60,4 @@ void wf_filters_print_design(const wf_filters_query *q) {
               wf_stairs_power(&d->stairs) / q->wish.width, "");
     print_row("flicker of the still zone plate, RMS", d->flicker, "");
     print_proof(q);
-}
-
-/* ---- For programs ---- */
-
-static void add_wish(wf_json *json, const wf_design_wish *w) {
-    wf_json_open(json, "wish", '{');
-    wf_json_real(json, "support", w->support);
-    wf_json_real(json, "overshoot", w->overshoot);
-    wf_json_real(json, "alias", w->alias);
-    wf_json_real(json, "width", w->width);
-    wf_json_real(json, "flicker", w->flicker > 0 ? w->flicker : NAN);
-    wf_json_open(json, "sharp", '[');
-    for (int i = 0; i < w->sharps; i++) wf_json_real(json, NULL, w->sharp[i]);
-    wf_json_close(json);
-    wf_json_open(json, "at", '[');
-    for (int i = 0; i < w->sharps || i == 0; i++) wf_json_real(json, NULL, w->at[i]);
-    wf_json_close(json);
-    wf_json_close(json);
-}
-
-void wf_filters_add_design(wf_json *json, const wf_filters_query *q) {
-    const wf_design *d = &q->design;
-    wf_json_open(json, "design", '{');
-    add_wish(json, &q->wish);
-    wf_json_real(json, "flicker", d->flicker);
-    wf_json_real(json, "response_eighth", wf_stairs_response(&d->stairs, 0.125));
-    wf_json_real(json, "response_quarter", wf_stairs_response(&d->stairs, 0.25));
-    wf_json_open(json, "response_at", '[');
-    for (int i = 0; i < q->wish.sharps || i == 0; i++)
-        wf_json_real(json, NULL, wf_stairs_response(&d->stairs, q->wish.at[i]));
-    wf_json_close(json);
-    wf_json_real(json, "overshoot", d->overshoot);
-    wf_json_real(json, "least_beyond_quarter", d->least);
-    wf_json_real(json, "response_half", d->zero);
-    wf_json_real(json, "largest_beyond_half", d->alias);
-    wf_json_real(json, "noise", wf_stairs_power(&d->stairs) / q->wish.width);
-    wf_json_real(json, "gap", d->sharpest ? NAN : d->gap);
-    wf_json_real(json, "gap_response", d->sharpest ? d->gap : NAN);
-    wf_json_int(json, "iterations", d->iterations);
-    wf_json_int(json, "programs", d->programs);
-    wf_json_real(json, "step_lines", 1.0 / WF_STAIRS_STEPS);
-    wf_json_open(json, "kernel", '[');
-    for (int i = 0; i < d->stairs.count; i++) wf_json_real(json, NULL, d->stairs.height[i]);
-    wf_json_close(json);
-    wf_json_close(json);
 }

@@ -1,36 +1,9 @@
-/* Part of weft filters: the list of apertures and the response of one, as tables and as JSON.
- */
+/* Part of weft filters: the list of apertures and the response of one, as tables. */
 #include <math.h>
 #include <stdio.h>
 
-#include "convert/base/json.h"
-#include "convert/program/cmd.h"
-#include "convert/program/filters_parts.h"
+#include "convert/program/filters_print.h"
 #include "filters/aperture/flicker.h"
-#include "filters/aperture/residue.h"
-
-#define STEPS   20   /* rows of the table, from 0 to 1 cycle, less one */
-#define FLICKER 0.5  /* cycles a line; what has it alternates from field to field */
-#define ZERO_DB -400 /* what JSON, which has no infinity, gives for a response of zero */
-
-static double residue(const wf_filters_query *q, const wf_aperture *a, double f) {
-    return q->input_lines ? wf_line_residue(a, q->input_lines, q->raster.lines, f) : 0;
-}
-
-/* A row of the table: responses at f cycles a line, f cycles a pixel and f cycles a field
- * period. */
-typedef struct response {
-    double f, vertical, horizontal, temporal, weights;
-} response;
-
-static response respond(const wf_filters_query *q, int step) {
-    const wf_aperture *a = &q->aperture;
-    double f = (double)step / STEPS, tau = wf_filters_tau(q, a);
-    return (response){f, wf_response(a, tau, 0, f, 0), wf_response(a, tau, f, 0, 0),
-                      wf_response(a, tau, 0, 0, f), residue(q, a, f)};
-}
-
-/* ---- For people ---- */
 
 static double people_db(double value) {
     return wf_filters_db(value, -INFINITY);
@@ -54,15 +27,11 @@ static void print_header(const wf_filters_query *q) {
     putchar('\n');
 }
 
-static double flicker_response(const wf_filters_query *q, const wf_aperture *a) {
-    return wf_response(a, wf_filters_tau(q, a), 0, FLICKER, 0);
-}
-
 static void print_response(const wf_filters_query *q) {
     const wf_aperture *a = &q->aperture;
     print_header(q);
-    for (int step = 0; step <= STEPS; step++) {
-        response r = respond(q, step);
+    for (int step = 0; step <= WF_FILTERS_STEPS; step++) {
+        wf_filters_row r = wf_filters_respond(q, step);
         printf("%5.2f", r.f);
         print_pair(r.vertical);
         print_pair(r.horizontal);
@@ -72,8 +41,8 @@ static void print_response(const wf_filters_query *q) {
     }
     if (q->input_lines)
         printf("\n%s at %.1f cycles/line: closed form %.2f dB, %d lines to %d leave %.2f dB\n",
-               q->name, FLICKER, people_db(flicker_response(q, a)), q->input_lines,
-               q->raster.lines, people_db(residue(q, a, FLICKER)));
+               q->name, WF_FILTERS_FLICKER, people_db(wf_filters_flicker(q, a)), q->input_lines,
+               q->raster.lines, people_db(wf_filters_residue(q, a, WF_FILTERS_FLICKER)));
     if (q->designed)
         wf_filters_print_design(q);
     else
@@ -82,14 +51,14 @@ static void print_response(const wf_filters_query *q) {
 
 static void print_residues(const wf_filters_query *q) {
     const wf_aperture_kind *kind;
-    printf("\nAt %.1f cycles/line, %d lines to the %d of %s:\n\n%-22s %14s %14s\n", FLICKER,
-           q->input_lines, q->raster.lines, q->raster.name, "name", "closed form dB",
-           "weights dB");
+    printf("\nAt %.1f cycles/line, %d lines to the %d of %s:\n\n%-22s %14s %14s\n",
+           WF_FILTERS_FLICKER, q->input_lines, q->raster.lines, q->raster.name, "name",
+           "closed form dB", "weights dB");
     for (size_t i = 0; (kind = wf_aperture_at(i)); i++) {
         char name[64];
         wf_aperture a = wf_filters_example(kind, name);
-        printf("%-22s %14.2f %14.2f\n", name, people_db(flicker_response(q, &a)),
-               people_db(residue(q, &a, FLICKER)));
+        printf("%-22s %14.2f %14.2f\n", name, people_db(wf_filters_flicker(q, &a)),
+               people_db(wf_filters_residue(q, &a, WF_FILTERS_FLICKER)));
     }
 }
 
@@ -115,72 +84,4 @@ static void print_list(const wf_filters_query *q) {
 
 void wf_filters_print(const wf_filters_query *query) {
     (query->name ? print_response : print_list)(query);
-}
-
-/* ---- For programs ---- */
-
-static void add_pair(wf_json *json, const char *name, double value) {
-    char key[32];
-    snprintf(key, sizeof key, "%s_db", name);
-    wf_json_real(json, name, value);
-    wf_json_real(json, key, wf_filters_db(value, ZERO_DB));
-}
-
-static void add_aperture(wf_json *json, const wf_filters_query *q, const char *name,
-                         const wf_aperture *a) {
-    wf_json_text(json, "name", name ? name : a->kind->name);
-    wf_json_text(json, "shape", a->kind->shape);
-    wf_json_text(json, "paper", a->kind->paper);
-    wf_json_real(json, "temporal_width", wf_filters_tau(q, a));
-    wf_json_real(json, "reach_pixels", a->reach_u);
-    wf_json_real(json, "reach_lines", a->reach_v);
-    wf_json_real(json, "flicker", wf_aperture_flicker(a));
-    wf_json_real(json, "sharpness", wf_filters_sharpness(a));
-    wf_json_open(json, "parameters", '[');
-    for (int p = 0; p < a->kind->parameters; p++) wf_json_real(json, NULL, a->parameter[p]);
-    wf_json_close(json);
-    if (!q->input_lines) return;
-    wf_json_open(json, "residue", '{');
-    wf_json_int(json, "input_lines", q->input_lines);
-    wf_json_int(json, "lines", q->raster.lines);
-    wf_json_real(json, "frequency", FLICKER);
-    add_pair(json, "closed_form", flicker_response(q, a));
-    add_pair(json, "weights", residue(q, a, FLICKER));
-    wf_json_close(json);
-}
-
-static void add_response(wf_json *json, const wf_filters_query *q) {
-    add_aperture(json, q, q->name, &q->aperture);
-    if (q->designed) wf_filters_add_design(json, q);
-    wf_json_open(json, "response", '[');
-    for (int step = 0; step <= STEPS; step++) {
-        response r = respond(q, step);
-        wf_json_open(json, NULL, '{');
-        wf_json_real(json, "frequency", r.f);
-        add_pair(json, "vertical", r.vertical);
-        add_pair(json, "horizontal", r.horizontal);
-        add_pair(json, "temporal", r.temporal);
-        if (q->input_lines) add_pair(json, "weights", r.weights);
-        wf_json_close(json);
-    }
-}
-
-static void add_list(wf_json *json, const wf_filters_query *q) {
-    const wf_aperture_kind *kind;
-    wf_json_open(json, "apertures", '[');
-    for (size_t i = 0; (kind = wf_aperture_at(i)); i++) {
-        char name[64];
-        wf_aperture a = wf_filters_example(kind, name);
-        wf_json_open(json, NULL, '{');
-        add_aperture(json, q, NULL, &a);
-        if (kind->follows) wf_json_text(json, "example", name);
-        wf_json_close(json);
-    }
-}
-
-weft_status wf_filters_print_json(const wf_filters_query *query, weft_error *err) {
-    wf_json json = {0};
-    wf_json_open(&json, NULL, '{');
-    (query->name ? add_response : add_list)(&json, query);
-    return wf_cmd_print_json(wf_json_finish(&json), err);
 }

@@ -205,7 +205,18 @@ static weft_status show_all(run *r, weft_error *err) {
     return status;
 }
 
-weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error *err) {
+static void tell(const run *r, wf_report *report) {
+    wf_worker times = wf_crew_times(&r->crew);
+    report->frames = r->crew.done;
+    report->fields = r->crew.done * wf_raster_fields_per_frame(&r->job->raster);
+    report->color_s = times.color_s;
+    if (!r->frames) return;
+    report->legal = wf_setup_legal(r->job, &r->setup);
+    wf_frames_tell(r->frames, report);
+}
+
+weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, wf_report *report,
+                             weft_error *err) {
     run r = {.job = job};
     wf_tv tv;
     weft_status status = wf_job_check(job, err);
@@ -217,6 +228,7 @@ weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error 
     if (!status) status = make_coder(&r, &tv, err);
     if (!status) status = open_output(&r, set, err);
     if (!status) status = show_all(&r, err);
+    tell(&r, report);
     release(&r);
     return status;
 }

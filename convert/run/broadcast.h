@@ -3,6 +3,7 @@
 
 #include "color/composite/composite.h"
 #include "convert/job/job.h"
+#include "convert/job/report.h"
 
 /* What a television shows of video that reaches it as composite. */
 
@@ -16,7 +17,9 @@ typedef struct wf_broadcast {
 
 /* Takes the job's one input, video of any form that is read, through a coder and a decoder to
  * its output, in its raster and with its time code. Of the job, what concerns the output's
- * codes and running is looked at; its raster becomes the input's. */
-weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, weft_error *err);
+ * codes and running is looked at; its raster becomes the input's. Tells the report what was
+ * done. */
+weft_status wf_broadcast_run(weft_job *job, const wf_broadcast *set, wf_report *report,
+                             weft_error *err);
 
 #endif

@@ -35,13 +35,13 @@ enum {
  * flag at this offset. */
 typedef struct demand {
     enum { OF_ALL, OF_TEXT, OF_NUMBER, OF_FLAG } kind;
-    size_t offset; /* in wf_profile */
+    size_t offset; /* in wf_delivery_profile */
 } demand;
 
 /* clang-format off */
-#define TEXT(member)   {OF_TEXT, offsetof(wf_profile, member)}
-#define NUMBER(member) {OF_NUMBER, offsetof(wf_profile, member)}
-#define FLAG(member)   {OF_FLAG, offsetof(wf_profile, member)}
+#define TEXT(member)   {OF_TEXT, offsetof(wf_delivery_profile, member)}
+#define NUMBER(member) {OF_NUMBER, offsetof(wf_delivery_profile, member)}
+#define FLAG(member)   {OF_FLAG, offsetof(wf_delivery_profile, member)}
 #define ALL            {OF_ALL, 0}
 
 /* by: what demands it, for people; %s becomes the raster, and the profile that it is of. What a
@@ -126,7 +126,7 @@ static unsigned nature_of(const wf_subject *s) {
            (mxf || !strcmp(s->metadata.container, "matroska") ? IDENTITY : 0);
 }
 
-static bool is_asked(demand asked, const wf_profile *profile) {
+static bool is_asked(demand asked, const wf_delivery_profile *profile) {
     if (asked.kind == OF_ALL) return true;
     if (!profile) return false;
     const void *member = (const char *)profile + asked.offset;

@@ -70,7 +70,7 @@
 #define HDF(tracks) .closed = true, .sound_channels = tracks, .sound_bits = 24
 #define DPP         .closed = true, .start = "10:00:00:00", .channels = "4 16", .sound_bits = 24
 
-static const wf_profile profiles[] = {
+static const wf_delivery_profile profiles[] = {
     {"xdcamhd422-1080i50", "XDCAM HD422 in MXF OP1a (SMPTE RDD 9)", XDCAM("1080i50", 12)},
     {"xdcamhd422-1080i59.94", "the same at 29.97 frames a second", XDCAM("1080i59.94", 15)},
     {"xdcamhd422-720p50", "the same, progressive", XDCAM("720p50", 15)},
@@ -119,11 +119,11 @@ static const wf_profile profiles[] = {
 
 #define PROFILES (sizeof profiles / sizeof *profiles)
 
-const wf_profile *wf_profile_at(size_t index) {
+const wf_delivery_profile *wf_profile_at(size_t index) {
     return index < PROFILES ? &profiles[index] : NULL;
 }
 
-const wf_profile *wf_profile_find(const char *name, weft_error *err) {
+const wf_delivery_profile *wf_profile_find(const char *name, weft_error *err) {
     wf_spelling spelling = {.text = name};
     for (size_t i = 0; i < PROFILES; i++) {
         if (!strcmp(profiles[i].name, name)) return &profiles[i];

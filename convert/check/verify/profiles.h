@@ -8,7 +8,7 @@
 
 /* What a station or a format asks for: a row of the table. NULL and 0: anything will do. Texts
  * that are "one of these" have blanks between their words. */
-typedef struct wf_profile {
+typedef struct wf_delivery_profile {
     const char *name, *about; /* with where it was read */
     const char *container;    /* libavformat's name */
     const char *codec;        /* libavcodec's name */
@@ -34,12 +34,12 @@ typedef struct wf_profile {
     bool one_sound;          /* one stream has all channels */
     bool closed;             /* MXF's header partition itself is closed and complete */
     const char *not_checked; /* what the format asks for besides */
-} wf_profile;
+} wf_delivery_profile;
 
 /* The table by index; NULL past the end. */
-const wf_profile *wf_profile_at(size_t index);
+const wf_delivery_profile *wf_profile_at(size_t index);
 
 /* By its name; NULL with an error that names the one that is spelled alike. */
-const wf_profile *wf_profile_find(const char *name, weft_error *err);
+const wf_delivery_profile *wf_profile_find(const char *name, weft_error *err);
 
 #endif

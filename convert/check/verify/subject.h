@@ -12,7 +12,7 @@
 
 /* A file that is verified, with all that is known of it. */
 typedef struct wf_subject {
-    const wf_profile *profile; /* NULL: none is asked for */
+    const wf_delivery_profile *profile; /* NULL: none is asked for */
     wf_metadata metadata;
     bool contained; /* it has a container, and metadata is known */
     bool streamed;  /* it is frames one after the other: Y4M, v210, uyvy */

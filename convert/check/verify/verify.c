@@ -105,7 +105,8 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
                                         .of_delivery = true,
                                         .max_memory_bytes = options->max_memory_bytes,
                                         .progress = options->progress,
-                                        .progress_user = options->progress_user};
+                                        .progress_user = options->progress_user,
+                                        .cancelled = options->cancelled};
     weft_error trouble = {""}, untold;
     wf_subject s = {.profile = options->profile};
     *out = (wf_verification){.profile = options->profile};

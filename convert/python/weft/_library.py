@@ -53,9 +53,24 @@ class RasterStruct(ctypes.Structure):
                 ("matrix", c_char_p), ("line1", c_int), ("line2", c_int), ("total_lines", c_int)]
 
 
+def _asked(*names):
+    """A structure that can grow: its size, then texts."""
+    class Asked(ctypes.Structure):
+        _fields_ = [("size", c_size_t)] + [(name, c_char_p) for name in names]
+    return Asked
+
+
+ProfileStruct = _asked("name", "about", "rasters", "not_checked")
+Measure = _asked("raster", "chart", "display", "view_distance", "peak", "against", "limit", "heatmap",
+                 "heat")
+Verify = _asked("profile", "raster")
+Filters = _asked("name", "input_lines", "plot", "frontier")
+Composite = _asked("system", "encoder", "decoder", "raster", "audio")
+
 STRUCTURES = {"weft_error": Error, "weft_progress": ProgressStruct, "weft_samples": Samples,
               "weft_tile": Tile, "weft_field": FieldStruct, "weft_option": OptionStruct,
-              "weft_raster": RasterStruct}
+              "weft_raster": RasterStruct, "weft_profile": ProfileStruct, "weft_measure": Measure,
+              "weft_verify": Verify, "weft_filters": Filters, "weft_composite": Composite}
 
 # ---- Functions ----
 
@@ -81,6 +96,13 @@ FUNCTIONS = {
     "weft_job_cancel": (None, _HANDLE),
     "weft_job_report": (c_char_p, _HANDLE),
     "weft_job_plan": (_STATUS, _HANDLE, c_char_p, POINTER(c_char_p), _ERROR),
+    "weft_job_measure": (_STATUS, _HANDLE, POINTER(Measure), _ERROR),
+    "weft_job_verify": (_STATUS, _HANDLE, POINTER(Verify), _ERROR),
+    "weft_profile_at": (c_bool, c_size_t, POINTER(ProfileStruct)),
+    "weft_job_info": (_STATUS, _HANDLE, _ERROR),
+    "weft_job_filters": (_STATUS, _HANDLE, POINTER(Filters), _ERROR),
+    "weft_job_composite": (_STATUS, _HANDLE, POINTER(Composite), _ERROR),
+    "weft_plot": (_STATUS, c_char_p, c_char_p, _ERROR),
     "weft_fields_new": (_STATUS, _HANDLE, c_int64, FIELD_FN, c_void_p, POINTER(_HANDLE), _ERROR),
     "weft_fields_free": (None, _HANDLE),
     "weft_fields_push": (_STATUS, _HANDLE, POINTER(Samples), _ERROR),

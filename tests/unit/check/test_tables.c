@@ -42,7 +42,7 @@ static void check_rasters(const char *rasters) {
 
 static void profiles_are_whole(void **state) {
     (void)state;
-    const wf_profile *p;
+    const wf_delivery_profile *p;
     weft_error err;
     for (size_t i = 0; (p = wf_profile_at(i)); i++) {
         assert_ptr_equal(wf_profile_find(p->name, &err), p); /* no name is there twice */

@@ -1,29 +1,23 @@
-/* Part of weft info: facts as lines for people, or as members of a JSON object. */
-#include "convert/program/info_facts.h"
+/* Facts of files as lines for people, or as members of a JSON object. */
+#include "convert/ask/info_facts.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 
 void wf_fact_text(wf_facts *facts, const char *key, const char *value) {
-    if (facts->as_json) {
-        wf_json_text(&facts->json, key, value);
-        return;
-    }
-    printf("  ");
-    for (int column = 0; column < 18; column++) {
-        putchar(*key == '_' || !*key ? ' ' : *key);
-        key += *key != '\0';
-    }
-    puts(value);
+    if (facts->line)
+        facts->line(facts->user, key, value);
+    else
+        wf_json_text(facts->json, key, value);
 }
 
 void wf_fact_int(wf_facts *facts, const char *key, int64_t value) {
     char text[24];
     snprintf(text, sizeof text, "%" PRId64, value);
-    if (facts->as_json)
-        wf_json_int(&facts->json, key, value);
-    else
+    if (facts->line)
         wf_fact_text(facts, key, text);
+    else
+        wf_json_int(facts->json, key, value);
 }
 
 void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char between) {
@@ -35,17 +29,17 @@ void wf_fact_ratio(wf_facts *facts, const char *key, wf_rational value, char bet
 void wf_fact_real(wf_facts *facts, const char *key, double value) {
     char text[32];
     snprintf(text, sizeof text, "%.9g", value);
-    if (facts->as_json)
-        wf_json_real(&facts->json, key, value);
-    else
+    if (facts->line)
         wf_fact_text(facts, key, text);
+    else
+        wf_json_real(facts->json, key, value);
 }
 
 void wf_facts_taken(wf_facts *facts, const wf_taken_list *taken) {
-    if (facts->as_json) {
-        wf_json_open(&facts->json, "input", '{');
-        wf_taken_json(&facts->json, taken);
-        wf_json_close(&facts->json);
+    if (!facts->line) {
+        wf_json_open(facts->json, "input", '{');
+        wf_taken_json(facts->json, taken);
+        wf_json_close(facts->json);
         return;
     }
     for (int i = 0; i < taken->count; i++) {

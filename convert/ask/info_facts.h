@@ -1,17 +1,18 @@
-/* What the parts of weft info share. */
-#ifndef WF_CONVERT_PROGRAM_CMD_INFO_H
-#define WF_CONVERT_PROGRAM_CMD_INFO_H
+/* What the parts of telling what files are share. */
+#ifndef WF_CONVERT_ASK_INFO_FACTS_H
+#define WF_CONVERT_ASK_INFO_FACTS_H
 
 #include "convert/base/json.h"
 #include "convert/job/taken.h"
 #include "convert/read/video.h"
 #include "filters/base/rational.h"
 
-/* What 'weft info' finds out, told one fact at a time: a line "key value" each on standard
- * output, or a member of a JSON object. Keys are JSON's; lines show '_' as a blank. */
+/* What is found out of a file, told one fact at a time: as a line of text each, or as a member
+ * of a JSON object. Keys are JSON's. */
 typedef struct wf_facts {
-    bool as_json;
-    wf_json json;
+    void (*line)(void *user, const char *key, const char *value); /* NULL: as JSON */
+    void *user;
+    wf_json *json;
 } wf_facts;
 
 void wf_fact_text(wf_facts *facts, const char *key, const char *value);

@@ -1,11 +1,11 @@
-/* Part of weft measure: --limit, by which a pipeline stops at a figure that is too bad. */
+/* Limits on figures, by which a pipeline stops at what is too bad. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/program/measure_parts.h"
+#include "convert/ask/measure_limit.h"
 #include "filters/base/spelling.h"
 
 #define VERDICT "order.verdict"

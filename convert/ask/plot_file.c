@@ -1,6 +1,6 @@
-/* Part of weft plot: reads a plot from JSON. Each object has a table of its keys; what is wrong
+/* Reads a plot from JSON. Each object has a table of its keys; what is wrong
  * is told with the path of the key, such as items[2].points[0]. */
-#include "convert/program/plot_file.h"
+#include "convert/ask/plot_file.h"
 
 #include <errno.h>
 #include <math.h>

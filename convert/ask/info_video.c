@@ -1,7 +1,7 @@
-/* Part of weft info: video in containers, as the libav module reads it. */
+/* What files are: video in containers, as the libav module reads it. */
 #include <string.h>
 
-#include "convert/program/info_facts.h"
+#include "convert/ask/info_facts.h"
 #include "convert/read/rate.h"
 #include "convert/sound/sound.h"
 #include "convert/video/meaning.h"

@@ -1,11 +1,11 @@
-/* Part of weft filters: the curves of --plot, for the plot module to draw. */
+/* Apertures drawn: the curves of --plot, for the plot module to draw. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/ask/draw.h"
+#include "convert/ask/filters.h"
 #include "convert/plot/plot.h"
-#include "convert/program/cmd.h"
-#include "convert/program/filters_parts.h"
 #include "filters/aperture/residue.h"
 
 #define POINTS      1001 /* an odd number, so that one of them is at FLICKER */
@@ -157,5 +157,5 @@ weft_status wf_filters_plot(const wf_filters_query *query, const char *path, wef
         .panel = panels,
         .panels = 2,
     };
-    return wf_cmd_draw("wf_plot_draw", &plot, path, err);
+    return wf_draw("wf_plot_draw", &plot, path, err);
 }

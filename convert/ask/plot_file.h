@@ -1,6 +1,6 @@
-/* Part of weft plot: plots as JSON. */
-#ifndef WF_CONVERT_PROGRAM_PLOT_FILE_H
-#define WF_CONVERT_PROGRAM_PLOT_FILE_H
+/* Plots as JSON. */
+#ifndef WF_CONVERT_ASK_PLOT_FILE_H
+#define WF_CONVERT_ASK_PLOT_FILE_H
 
 #include <jansson.h>
 

@@ -1,13 +1,13 @@
-/* Part of weft filters: --frontier, the least flicker that there is for each sharpness, and
+/* Apertures drawn: --frontier, the least flicker that there is for each sharpness, and
  * where the named apertures lie. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/ask/draw.h"
+#include "convert/ask/filters.h"
 #include "convert/plot/plot.h"
-#include "convert/program/cmd.h"
-#include "convert/program/filters_parts.h"
 #include "filters/aperture/flicker.h"
 #include "filters/base/sinc.h"
 
@@ -211,7 +211,7 @@ static weft_status draw(const frontier *f, const char *path, weft_error *err) {
     snprintf(subtitle, sizeof subtitle,
              "Still zone plate on 525i; designs of %g lines to each side, aliases at most %g",
              rows[0].support, WF_DESIGN_ALIAS);
-    return wf_cmd_draw("wf_plot_draw", &plot, path, err);
+    return wf_draw("wf_plot_draw", &plot, path, err);
 }
 
 /* ---- Numbers ---- */
@@ -222,39 +222,37 @@ static void add_numbers(wf_json *json, const char *key, const double *value, siz
     wf_json_close(json);
 }
 
-static weft_status print(const frontier *f, weft_error *err) {
-    wf_json json = {0};
-    wf_json_open(&json, NULL, '{');
-    wf_json_real(&json, "sharp_at", WF_FILTERS_SHARP_AT);
-    wf_json_open(&json, "curves", '[');
+static void add_frontier(wf_json *json, const frontier *f) {
+    wf_json_real(json, "sharp_at", WF_FILTERS_SHARP_AT);
+    wf_json_open(json, "curves", '[');
     for (size_t i = 0; i < CURVES; i++) {
         const curve *c = &f->curve[i];
-        wf_json_open(&json, NULL, '{');
-        wf_json_real(&json, "support", c->row->support);
-        wf_json_real(&json, "overshoot", c->row->overshoot);
-        wf_json_real(&json, "width", c->row->width);
-        add_numbers(&json, "flicker", c->flicker, c->points);
-        add_numbers(&json, "sharpness", c->sharpness, c->points);
-        wf_json_close(&json);
+        wf_json_open(json, NULL, '{');
+        wf_json_real(json, "support", c->row->support);
+        wf_json_real(json, "overshoot", c->row->overshoot);
+        wf_json_real(json, "width", c->row->width);
+        add_numbers(json, "flicker", c->flicker, c->points);
+        add_numbers(json, "sharpness", c->sharpness, c->points);
+        wf_json_close(json);
     }
-    wf_json_close(&json);
-    wf_json_open(&json, "points", '[');
+    wf_json_close(json);
+    wf_json_open(json, "points", '[');
     for (size_t m = 0; m < f->marks; m++) {
-        wf_json_open(&json, NULL, '{');
-        wf_json_text(&json, "name", f->mark[m].name);
-        wf_json_real(&json, "flicker", f->mark[m].flicker);
-        wf_json_real(&json, "sharpness", f->mark[m].sharpness);
-        wf_json_close(&json);
+        wf_json_open(json, NULL, '{');
+        wf_json_text(json, "name", f->mark[m].name);
+        wf_json_real(json, "flicker", f->mark[m].flicker);
+        wf_json_real(json, "sharpness", f->mark[m].sharpness);
+        wf_json_close(json);
     }
-    return wf_cmd_print_json(wf_json_finish(&json), err);
+    wf_json_close(json);
 }
 
-weft_status wf_filters_frontier(const char *path, bool json, weft_error *err) {
+weft_status wf_filters_frontier(const char *path, wf_json *json, weft_error *err) {
     frontier *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = find(f, err);
     if (!status) status = draw(f, path, err);
-    if (!status && json) status = print(f, err);
+    if (!status && json) add_frontier(json, f);
     free(f);
     return status;
 }

@@ -4,14 +4,13 @@
 #include "convert/base/module.h"
 #include "convert/base/outfile.h"
 #include "convert/plot/plot.h"
-#include "convert/program/cmd.h"
+#include "convert/ask/draw.h"
 
 static weft_status write_piece(void *to, const void *data, size_t bytes, weft_error *err) {
     return wf_outfile_write(to, data, bytes, err);
 }
 
-weft_status wf_cmd_draw(const char *symbol, const void *plot, const char *path,
-                        weft_error *err) {
+weft_status wf_draw(const char *symbol, const void *plot, const char *path, weft_error *err) {
     void *found;
     wf_plot_fn *draw;
     wf_outfile *file;

@@ -1,11 +1,11 @@
-/* Part of weft info: the header of a Y4M file. */
+/* What files are: the header of a Y4M file. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
 #include "convert/media/y4m.h"
-#include "convert/program/info_facts.h"
+#include "convert/ask/info_facts.h"
 
 static void tell_header(const wf_y4m *h, int64_t frames, wf_facts *facts) {
     wf_fact_text(facts, "kind", "video");
