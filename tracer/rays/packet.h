@@ -38,9 +38,10 @@ typedef struct wf_packet_ops {
      * are, or as near and of a solid that comes before. */
     void (*nearer)(const wf_runs *runs, int most_runs, const double *rounding, int solid,
                    int count, wf_hits *hits);
-    /* The same of one ray of the hits, which those runs at a place are of. */
-    void (*nearer_one)(const wf_runs *runs, int most_runs, int place, double rounding,
-                       int solid, int ray, wf_hits *hits);
+    /* The same of rays of the hits, one or more, which the runs in their order are of, each
+     * with a solid of its own. rounding is that of all rays. */
+    void (*nearer_each)(const wf_runs *runs, int most_runs, const double *rounding,
+                        const int *solid, const int *ray, int count, wf_hits *hits);
     void (*unit)(int count, wf_points *directions);
     /* How far rounding may reach along each ray for the size of where it starts: a share of
      * origin over direction. */

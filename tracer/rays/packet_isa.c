@@ -202,11 +202,12 @@ static void nearer(const wf_runs *runs, int most_runs, const double *rounding, i
         nearer_end(runs->in[k], runs->out[k], rounding, solid, count, hits);
 }
 
-static void nearer_one(const wf_runs *runs, int most_runs, int place, double rounding,
-                       int solid, int ray, wf_hits *hits) {
-    for (int k = 0; k < most_runs; k++)
-        next_end(runs->in[k][place], runs->out[k][place], rounding, solid, &hits->s[ray],
-                 &hits->solid[ray], &hits->entering[ray]);
+static void nearer_each(const wf_runs *runs, int most_runs, const double *rounding,
+                        const int *solid, const int *ray, int count, wf_hits *hits) {
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < most_runs; k++)
+            next_end(runs->in[k][i], runs->out[k][i], rounding[ray[i]], solid[i],
+                     &hits->s[ray[i]], &hits->solid[ray[i]], &hits->entering[ray[i]]);
 }
 
 /* ---- Boxes ---- */
@@ -264,5 +265,5 @@ static void no_second_run(wf_runs *runs, int count) {
 
 const wf_packet_ops WF_ISA_TABLE(wf_packet_ops) = {
     place,         place_each,         drift_in,      spin_in, find_sincos, spin_out,
-    place_normals, place_normals_each, reach,         nearer,  nearer_one,  unit,
+    place_normals, place_normals_each, reach,         nearer,  nearer_each, unit,
     rounding,      farthest,           no_second_run, box};

@@ -105,10 +105,17 @@ static wf_leaf leaf_of(const wf_tracer *t, int index) {
     return leaf;
 }
 
+static uint8_t kind_of(const wf_grove *g, const wf_leaf *leaf) {
+    bool alike = leaf->solid >= 0 && leaf->op == g->op && wf_solid_type_of(leaf->kind)->alike;
+    return alike ? (uint8_t)leaf->kind : WF_SOLID_KINDS;
+}
+
 static void free_grove(wf_grove *g) {
     wf_tree_free(&g->tree);
     free(g->leaves);
+    free(g->kinds);
     g->leaves = NULL;
+    g->kinds = NULL;
 }
 
 /* Notes the box of a part in its grove; false: it has none there. Those that are endless are so
@@ -138,8 +145,13 @@ static bool make_grove(wf_tracer *t, int index, wf_bounds *bounds, int *parts) {
     free_grove(g);
     if (!wf_tree_new(bounds, parts, count, &g->tree)) return false;
     g->leaves = aligned_alloc(64, ((size_t)count + 1) * sizeof *g->leaves);
-    for (int n = 0; g->leaves && n < count; n++) g->leaves[n] = leaf_of(t, g->tree.items[n]);
-    return g->leaves;
+    g->kinds = malloc((size_t)count + 1);
+    if (!g->leaves || !g->kinds) return false;
+    for (int n = 0; n < count; n++) {
+        g->leaves[n] = leaf_of(t, g->tree.items[n]);
+        g->kinds[n] = kind_of(g, &g->leaves[n]);
+    }
+    return true;
 }
 
 bool wf_groves_look(wf_tracer *t) {

@@ -20,6 +20,8 @@ typedef struct wf_grove {
     bool moves; /* within that space */
     wf_tree tree;
     wf_leaf *leaves; /* [tree.item_count] */
+    uint8_t *kinds;  /* [tree.item_count]: of a solid in that space, where one is like any other
+                      * of its kind; or  WF_SOLID_KINDS */
 } wf_grove;
 
 typedef struct wf_groves {

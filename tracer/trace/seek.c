@@ -64,50 +64,54 @@ static bool is_around(const seeker *q, const wf_leaf *leaf, double near) {
     return q->what == WF_SEEK_NEAREST && near <= 0 && leaf->sibling;
 }
 
-/* What the runs at a place say of a way's ray. */
-static void take_run(seeker *q, const wf_way *w, int place) {
-    const wf_leaf *leaf = w->leaf;
-    int most_runs = wf_solid_type_of(leaf->kind)->most_runs;
-    if (q->what == WF_SEEK_HOLDERS) {
-        if (starts_in(&q->runs, most_runs, place)) q->found(q->user, w->ray, leaf->part);
-        return;
+/* What the runs say of rays and solids of one kind. */
+static void take_runs(seeker *q, const wf_met *m, int count) {
+    const wf_leaf *leaves = q->grove->leaves;
+    int most_runs = wf_solid_type_of(leaves[~m->item[0]].kind)->most_runs;
+    int solid[WF_PACKET];
+    for (int k = 0; k < count; k++) {
+        const wf_leaf *leaf = &leaves[~m->item[k]];
+        solid[k] = leaf->solid;
+        if (q->what == WF_SEEK_HOLDERS && starts_in(&q->runs, most_runs, k))
+            q->found(q->user, m->ray[k], leaf->part);
+        if (is_around(q, leaf, m->near[k]))
+            q->inside[m->ray[k]] |= starts_in(&q->runs, most_runs, k);
     }
-    if (is_around(q, leaf, w->near)) q->inside[w->ray] |= starts_in(&q->runs, most_runs, place);
-    q->t->packet->nearer_one(&q->runs, most_runs, place, q->rounding[w->ray], leaf->solid,
-                             w->ray, q->hits);
-    if (q->hits->solid[w->ray] >= 0) q->last = leaf;
+    if (q->what == WF_SEEK_HOLDERS) return;
+    q->t->packet->nearer_each(&q->runs, most_runs, q->rounding, solid, m->ray, count, q->hits);
+    for (int k = 0; q->what == WF_SEEK_ANY && k < count; k++)
+        if (q->hits->solid[m->ray[k]] >= 0) q->last = &leaves[~m->item[k]];
 }
 
 /* One ray and one solid. */
-static bool try_solid(seeker *q, const wf_way *w) {
+static bool try_solid(seeker *q, const wf_met *m) {
     const wf_tracer *t = q->t;
-    const wf_leaf *leaf = w->leaf;
+    const wf_leaf *leaf = &q->grove->leaves[~m->item[0]];
     const wf_affine *map = &leaf->inverse;
-    int ray = w->ray;
+    int ray = m->ray[0];
     const wf_rays *rays = rays_for(q, leaf, &ray);
     wf_rays local;
     if (!rays) return false;
     t->packet->place_each(&map, rays, &ray, 1, &local);
     t->intersect[leaf->kind](&t->scene->solids[leaf->solid], t->scene->planes, &local,
                              &q->runs);
-    take_run(q, w, 0);
+    take_runs(q, m, 1);
     return true;
 }
 
 /* Rays that each meet a solid of one kind, all of which are alike: without a look at the solids
  * themselves, which are far off in memory. */
-static void try_alike(seeker *q, wf_way *const *ways, int count) {
-    const wf_affine *map[WF_WAYS];
-    int ray[WF_WAYS];
+static void try_alike(seeker *q, const wf_met *m, int kind) {
+    const wf_affine *map[WF_PACKET];
     wf_rays local;
-    for (int k = 0; k < count; k++) map[k] = &ways[k]->leaf->inverse, ray[k] = ways[k]->ray;
-    q->t->packet->place_each(map, q->rays, ray, count, &local);
-    q->t->intersect[ways[0]->leaf->kind](NULL, NULL, &local, &q->runs);
-    for (int k = 0; k < count; k++) take_run(q, ways[k], k);
+    for (int k = 0; k < m->count; k++) map[k] = &q->grove->leaves[~m->item[k]].inverse;
+    q->t->packet->place_each(map, q->rays, m->ray, m->count, &local);
+    q->t->intersect[kind](NULL, NULL, &local, &q->runs);
+    take_runs(q, m, m->count);
 }
 
 /* Programs are looked at for all rays together that may meet them. */
-static bool wait_for(seeker *q, const wf_way *w) {
+static bool wait_for(seeker *q, const wf_met *m) {
     wf_trace_scratch *s = q->s;
     if (s->waiting_count == s->waiting_capacity) {
         size_t capacity = 2 * s->waiting_capacity + WF_PACKET;
@@ -116,33 +120,52 @@ static bool wait_for(seeker *q, const wf_way *w) {
         s->waiting = grown;
         s->waiting_capacity = capacity;
     }
-    s->waiting[s->waiting_count++] = (wf_waiting){w->leaf, w->near, w->ray};
+    const wf_leaf *leaf = &q->grove->leaves[~m->item[0]];
+    s->waiting[s->waiting_count++] = (wf_waiting){leaf, m->near[0], m->ray[0]};
     return true;
 }
 
-static bool is_alike(const seeker *q, const wf_leaf *leaf) {
-    return leaf->solid >= 0 && leaf->op == q->grove->op && wf_solid_type_of(leaf->kind)->alike;
+static void add_met(const wf_met *from, int k, wf_met *to) {
+    to->near[to->count] = from->near[k];
+    to->item[to->count] = from->item[k];
+    to->ray[to->count++] = from->ray[k];
+}
+
+/* What was met of parts and solids that are like no other: one by one. Leaves the rest. */
+static bool try_others(seeker *q, wf_met *met) {
+    wf_met one;
+    int count = met->count;
+    met->count = 0;
+    for (int k = 0; k < count; k++) {
+        int item = ~met->item[k];
+        one.count = 0;
+        add_met(met, k, q->grove->kinds[item] < WF_SOLID_KINDS ? met : &one);
+        if (!one.count) continue;
+        if (!(q->grove->leaves[item].solid < 0 ? wait_for(q, &one) : try_solid(q, &one)))
+            return false;
+    }
+    return true;
+}
+
+/* Takes those out of what was met that are of the kind of the first, which it returns. */
+static int take_kind(const seeker *q, wf_met *met, wf_met *some) {
+    const uint8_t *kinds = q->grove->kinds;
+    int count = met->count, kind = kinds[~met->item[0]];
+    met->count = some->count = 0;
+    for (int k = 0; k < count; k++) {
+        bool takes = kinds[~met->item[k]] == kind && some->count < WF_PACKET;
+        add_met(met, k, takes ? some : met);
+    }
+    return kind;
 }
 
 /* Tries what ways have come to: those of one kind together. */
-static bool try_leaves(seeker *q, wf_way **ways, int count) {
-    for (int left; count > 0; count = left) {
-        wf_way *same[WF_WAYS];
-        const wf_leaf *leaf = ways[0]->leaf;
-        int of_kind = 0;
-        left = 0;
-        if (!is_alike(q, leaf)) {
-            if (!(leaf->solid < 0 ? wait_for(q, ways[0]) : try_solid(q, ways[0]))) return false;
-            left = count - 1;
-            ways++;
-            continue;
-        }
-        for (int k = 0; k < count; k++)
-            if (is_alike(q, ways[k]->leaf) && ways[k]->leaf->kind == leaf->kind)
-                same[of_kind++] = ways[k];
-            else
-                ways[left++] = ways[k];
-        try_alike(q, same, of_kind);
+static bool try_met(seeker *q) {
+    wf_met *met = &q->s->met, some;
+    if (!try_others(q, met)) return false;
+    while (met->count > 0) {
+        int kind = take_kind(q, met, &some);
+        try_alike(q, &some, kind);
     }
     return true;
 }
@@ -153,55 +176,47 @@ static bool has_found(const seeker *q, int ray) {
     return q->inside[ray] || (q->what == WF_SEEK_ANY && q->hits->solid[ray] >= 0);
 }
 
-/* Sets out with the next ray that is to go. What stopped another before is likely to stop this
- * one. False: none is left. */
-static bool set_out(seeker *q, wf_way *w) {
-    const wf_rays *r = q->rays;
-    while (q->ray < q->packet->rays.count && has_found(q, q->ray)) q->ray++;
-    if (q->ray == q->packet->rays.count) return false;
-    int i = w->ray = q->ray++;
-    const double o[3] = {r->ox[i], r->oy[i], r->oz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
-    q->t->walk->begin(&q->grove->tree, o, d, q->hits->s[i], &w->walk);
-    w->guess = q->what == WF_SEEK_ANY ? q->last : NULL;
-    return true;
+/* What stopped another ray before is likely to stop this one. */
+static void guess(const seeker *q, int ray) {
+    wf_met *m = &q->s->met;
+    if (q->what != WF_SEEK_ANY || !q->last) return;
+    m->near[m->count] = 0;
+    m->item[m->count] = ~(int)(q->last - q->grove->leaves);
+    m->ray[m->count++] = ray;
 }
 
-/* Goes on to the next part. False: there is none. */
-static bool go_on(seeker *q, wf_way *w) {
-    wf_stop stop;
-    w->near = 0;
-    w->leaf = w->guess;
-    w->guess = NULL;
-    if (w->leaf) return true;
-    w->walk.most = q->hits->s[w->ray];
-    if (has_found(q, w->ray) || !q->t->walk->next(&q->grove->tree, &w->walk, &stop))
-        return false;
-    w->leaf = &q->grove->leaves[~stop.what];
-    w->near = stop.near;
-    return true;
+/* Has rays that are to go set out for as long as there is space. */
+static void set_out(seeker *q) {
+    wf_ways *w = &q->s->ways;
+    for (; q->ray < q->packet->rays.count && w->count < WF_WAYS; q->ray++) {
+        if (has_found(q, q->ray)) continue;
+        guess(q, q->ray);
+        wf_ways_add(&q->grove->tree, q->ray, w);
+    }
 }
 
-/* Several rays are on their way at once, so that what they come to is looked at together. */
+static void end_ways(seeker *q) {
+    wf_ways *w = &q->s->ways;
+    for (int k = w->count; k-- > 0;)
+        if (!w->stops[k] || has_found(q, w->ray[k])) wf_ways_remove(k, w);
+}
+
+/* Many rays are on their way at once, so that what they come to is looked at together. */
 static bool go_through(seeker *q, const wf_grove *grove) {
-    wf_way *way[WF_WAYS], *at[WF_WAYS];
-    int count = 0, come = 0;
+    wf_trace_scratch *s = q->s;
     q->grove = grove;
     q->last = NULL;
     q->ray = 0;
+    s->met.count = 0;
+    wf_ways_clear(&s->ways);
     if (!grove->tree.item_count) return true;
-    q->rays = wf_carry_rays(q->t, q->s, q->packet, grove->op);
+    q->rays = wf_carry_rays(q->t, s, q->packet, grove->op);
     if (!q->rays) return false;
-    while (count < WF_WAYS && set_out(q, &q->s->ways[count]))
-        way[count] = &q->s->ways[count], count++;
-    while (count > 0) {
-        come = 0;
-        for (int k = 0; k < count;) {
-            if (go_on(q, way[k]))
-                at[come++] = way[k++];
-            else if (!set_out(q, way[k]))
-                way[k] = way[--count];
-        }
-        if (!try_leaves(q, at, come)) return false;
+    q->t->walk->begin(&grove->tree, q->rays, &s->walk);
+    for (set_out(q); s->ways.count > 0; set_out(q)) {
+        q->t->walk->step(&grove->tree, &s->walk, q->hits->s, &s->ways, &s->met);
+        if (!try_met(q)) return false;
+        end_ways(q);
     }
     return true;
 }

@@ -77,15 +77,6 @@ typedef struct wf_waiting {
     int ray;
 } wf_waiting;
 
-/* A ray of a packet on its way through a tree, and what it has come to. */
-#define WF_WAYS 8
-typedef struct wf_way {
-    int ray;
-    const wf_leaf *leaf, *guess; /* guess: to be tried before all others; or NULL */
-    double near;                 /* no part of the leaf is met before this s */
-    wf_walk walk;
-} wf_way;
-
 /* A packet on its way: its rays in the world, and when they look. */
 typedef struct wf_packet {
     wf_rays rays;
@@ -121,7 +112,10 @@ struct wf_trace_scratch {
     wf_packet ray;                  /* one of a packet */
     wf_culls alone, around, shadow; /* a part for some rays, those for a packet */
 
-    wf_way ways[WF_WAYS];
+    /* Rays on their ways through a tree. */
+    wf_walk walk;
+    wf_ways ways;
+    wf_met met;
 
     /* Rays that wait for others before a part of several solids is looked at. */
     wf_waiting *waiting;

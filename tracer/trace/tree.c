@@ -95,6 +95,35 @@ static void put_child(wf_tree_node *node, int k, const wf_bounds *box, int child
         node->plane[3 + axis][k] = box->high[axis];
     }
     node->child[k] = child;
+    node->used |= 1u << k;
+}
+
+/* How far a box lies from the middle of all, in the direction of a place of a node. */
+static double fits(const wf_bounds *box, const wf_bounds *all, int place) {
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double off = box->low[k] / 2 - all->low[k] / 2 + (box->high[k] / 2 - all->high[k] / 2);
+        sum += place >> k & 1 ? off : -off;
+    }
+    return sum;
+}
+
+/* Gives each box a place of the node: again and again the box and the place that fit best. */
+static void find_places(const wf_bounds *boxes, const wf_bounds *all, int count, int *place) {
+    double fit[WF_TREE_WIDTH][WF_TREE_WIDTH];
+    unsigned given = 0, taken = 0;
+    for (int k = 0; k < count; k++)
+        for (int p = 0; p < WF_TREE_WIDTH; p++) fit[k][p] = fits(&boxes[k], all, p);
+    for (int n = 0; n < count; n++) {
+        int box = -1, at = -1;
+        for (int k = 0; k < count; k++)
+            for (int p = 0; p < WF_TREE_WIDTH; p++) {
+                bool free = !(given >> k & 1) && !(taken >> p & 1);
+                if (free && (box < 0 || fit[k][p] > fit[box][at])) box = k, at = p;
+            }
+        given |= 1u << box, taken |= 1u << at;
+        place[box] = at;
+    }
 }
 
 /* Returns the box of what the node holds. */
@@ -104,15 +133,19 @@ static wf_bounds build(builder *b, int index, span whole) {
     wf_bounds all = wf_bounds_none();
     int count = children_of(whole.count);
     split(b, whole, count, spans);
-    tree->nodes[index] = (wf_tree_node){.used = (1u << count) - 1};
+    wf_bounds boxes[WF_TREE_WIDTH];
+    int child[WF_TREE_WIDTH] = {0}, place[WF_TREE_WIDTH];
     for (int k = 0; k < count; k++) {
         bool one = spans[k].count == 1;
-        int child = one ? ~spans[k].first : tree->node_count++;
-        wf_bounds box =
-            one ? b->bounds[tree->items[spans[k].first]] : build(b, child, spans[k]);
-        put_child(&tree->nodes[index], k, &box, child);
-        all = wf_bounds_unite(all, box);
+        child[k] = one ? ~spans[k].first : tree->node_count++;
+        boxes[k] = one ? b->bounds[tree->items[spans[k].first]] : build(b, child[k], spans[k]);
+        all = wf_bounds_unite(all, boxes[k]);
     }
+    find_places(boxes, &all, count, place);
+    wf_tree_node *node = &tree->nodes[index];
+    *node = (wf_tree_node){.used = 0};
+    for (int k = 0; k < WF_TREE_WIDTH; k++) node->child[k] = child[0];
+    for (int k = 0; k < count; k++) put_child(node, place[k], &boxes[k], child[k]);
     return all;
 }
 

@@ -204,14 +204,19 @@ static void nearer(level_run *r) {
     keep_hits(r, &hits);
 }
 
-static void nearer_one(level_run *r) {
+static void nearer_each(level_run *r) {
     wf_runs runs;
     wf_hits hits;
+    double rounding[WF_PACKET];
+    int ray[WF_PACKET], solid[WF_PACKET], count = drawn_count(r);
+    int most_runs = 1 + (int)(level_draw(r) % 2);
     fill_runs(r, &runs), fill_hits(r, &hits);
-    int ray = (int)(level_draw(r) % WF_PACKET), most_runs = 1 + (int)(level_draw(r) % 2);
-    int place = (int)(level_draw(r) % 8), solid = (int)(level_draw(r) % 8);
-    if (level_draw(r) % 3 == 0 && hits.s[ray] < HUGE_VAL) runs.in[0][place] = hits.s[ray];
-    packet(r)->nearer_one(&runs, most_runs, place, 1e-3, solid, ray, &hits);
+    for (int i = 0; i < WF_PACKET; i++) {
+        rounding[i] = level_uniform(r, 0, 0.01);
+        ray[i] = (int)(level_draw(r) % WF_PACKET), solid[i] = (int)(level_draw(r) % 8);
+        if (i % 3 == 0 && hits.s[ray[i]] < HUGE_VAL) runs.in[0][i] = hits.s[ray[i]];
+    }
+    packet(r)->nearer_each(&runs, most_runs, rounding, solid, ray, count, &hits);
     keep_hits(r, &hits);
 }
 
@@ -266,7 +271,7 @@ static const level_row packets[] = {
     {"packet.place_normals", place_normals, false, 0},
     {"packet.reach", reach, false, 0},
     {"packet.nearer", nearer, false, 0},
-    {"packet.nearer_one", nearer_one, false, 0},
+    {"packet.nearer_each", nearer_each, false, 0},
     {"packet.unit", unit, false, 0},
     {"packet.rounding", rounding, false, 0},
     {"packet.farthest", farthest, false, 0},
@@ -403,8 +408,6 @@ static const level_row csgs[] = {
 
 /* ---- Walks ---- */
 
-enum { MOST_MET = 64 };
-
 /* A root over four nodes, each of which it has twice. */
 static void fill_tree(level_run *r, wf_tree_node *nodes) {
     for (int n = 0; n < 5; n++) {
@@ -419,24 +422,50 @@ static void fill_tree(level_run *r, wf_tree_node *nodes) {
     }
 }
 
+/* Rays from about the tree, from planes of its boxes and along them. */
+static void fill_walkers(level_run *r, const wf_tree_node *root, wf_rays *rays) {
+    double *const o[3] = {rays->ox, rays->oy, rays->oz};
+    double *const d[3] = {rays->dx, rays->dy, rays->dz};
+    rays->count = drawn_count(r);
+    for (int i = 0; i < WF_PACKET; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            o[axis][i] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : root->plane[axis][0];
+            d[axis][i] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
+            if (r->wild) d[axis][i] = level_number(r);
+        }
+}
+
+static void keep_met(level_run *r, const wf_met *met, double *most) {
+    for (int k = 0; k < met->count; k++) {
+        level_keep_integers(r, (int64_t[]){met->item[k], met->ray[k]}, 2);
+        level_keep_doubles(r, &met->near[k], 1);
+        if (met->item[k] % 5 == 0) most[met->ray[k]] = met->near[k] + 1;
+    }
+}
+
 static void walk_tree(level_run *r) {
     wf_tree_node nodes[5];
     const wf_tree tree = {nodes, NULL, 5, 32, 5};
     const wf_walk_ops *ops = wf_walk_ops_at(r->level);
+    static wf_ways ways;
+    wf_rays rays;
     wf_walk walk;
-    wf_stop item;
-    double o[3], d[3], most = level_draw(r) % 2 ? HUGE_VAL : 3;
+    wf_met met;
+    double most[WF_PACKET];
     fill_tree(r, nodes);
-    for (int axis = 0; axis < 3; axis++) {
-        o[axis] = level_draw(r) % 4 ? level_uniform(r, -3, 3) : nodes[0].plane[axis][0];
-        d[axis] = level_draw(r) % 4 ? level_uniform(r, -1, 1) : 0;
-    }
-    if (r->wild) o[0] = level_number(r), d[1] = level_number(r);
-    ops->begin(&tree, o, d, most, &walk);
-    for (int n = 0; n < MOST_MET && ops->next(&tree, &walk, &item); n++) {
-        level_keep_integers(r, &(int64_t){item.what}, 1);
-        level_keep_doubles(r, &item.near, 1);
-        if (item.what % 5 == 0) walk.most = item.near + 1;
+    fill_walkers(r, nodes, &rays);
+    for (int i = 0; i < WF_PACKET; i++) most[i] = level_draw(r) % 2 ? HUGE_VAL : 3;
+    ops->begin(&tree, &rays, &walk);
+    int count = rays.count < WF_WAYS ? rays.count : WF_WAYS;
+    wf_ways_clear(&ways);
+    for (int k = 0; k < count; k++) wf_ways_add(&tree, k, &ways);
+    if (count > 3) wf_ways_remove(1, &ways);
+    for (int n = 0; n < 10; n++) {
+        met.count = 0;
+        ops->step(&tree, &walk, most, &ways, &met);
+        keep_met(r, &met, most);
+        for (int k = 0; k < ways.count; k++)
+            level_keep_integers(r, &(int64_t){ways.stops[k]}, 1);
     }
 }
 
@@ -462,18 +491,22 @@ static void find_in_tree(level_run *r) {
 /* What a walk begins with. */
 static void begin_walk(level_run *r) {
     const wf_tree tree = {NULL, NULL, 1, 1, level_uniform(r, 0, 5)};
-    const double o[3] = {level_number(r), level_number(r), level_number(r)};
-    const double d[3] = {level_number(r), level_uniform(r, -1, 1),
-                         level_draw(r) % 2 ? 0. : -0.};
+    wf_rays rays;
     wf_walk walk;
-    wf_walk_ops_at(r->level)->begin(&tree, o, d, 3, &walk);
-    level_keep_doubles(r, walk.first, 3);
-    level_keep_doubles(r, walk.last, 3);
-    level_keep_doubles(r, walk.inverse, 3);
+    fill_rays(r, &rays);
+    for (int i = 0; i < WF_PACKET; i++)
+        if (level_draw(r) % 3 == 0) rays.dz[i] = level_draw(r) % 2 ? 0. : -0.;
+    wf_walk_ops_at(r->level)->begin(&tree, &rays, &walk);
+    for (int k = 0; k < 3; k++) {
+        level_keep_doubles(r, walk.less_low[k], (size_t)rays.count);
+        level_keep_doubles(r, walk.less_high[k], (size_t)rays.count);
+        level_keep_doubles(r, walk.inverse[k], (size_t)rays.count);
+    }
+    level_keep_bytes(r, walk.down, (size_t)rays.count);
 }
 
 static const level_row walks[] = {{"walk.begin", begin_walk, false, 0},
-                                  {"walk.next", walk_tree, false, 0},
+                                  {"walk.step", walk_tree, false, 0},
                                   {"walk.find", find_in_tree, false, 0}};
 
 /* ---- Light ---- */

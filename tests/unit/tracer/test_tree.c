@@ -55,13 +55,24 @@ typedef struct visits {
 
 static void go(const wf_tree *tree, const test_ray *r, visits *v) {
     const wf_walk_ops *ops = wf_walk_ops_best();
+    static wf_ways ways;
+    wf_rays rays = {.count = 1};
     wf_walk walk;
-    wf_stop stop;
-    ops->begin(tree, r->o, r->d, r->most, &walk);
-    while (ops->next(tree, &walk, &stop)) {
-        int item = tree->items[~stop.what];
-        v->times[item]++;
-        v->near[item] = stop.near;
+    wf_met met;
+    for (int i = 0; i < 8; i++) {
+        rays.ox[i] = r->o[0], rays.oy[i] = r->o[1], rays.oz[i] = r->o[2];
+        rays.dx[i] = r->d[0], rays.dy[i] = r->d[1], rays.dz[i] = r->d[2];
+    }
+    ops->begin(tree, &rays, &walk);
+    wf_ways_clear(&ways);
+    for (wf_ways_add(tree, 0, &ways); ways.stops[0];) {
+        met.count = 0;
+        ops->step(tree, &walk, &r->most, &ways, &met);
+        for (int k = 0; k < met.count; k++) {
+            int item = tree->items[~met.item[k]];
+            v->times[item]++;
+            v->near[item] = met.near[k];
+        }
     }
 }
 
