@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "convert/base/outplace.h"
+#include "convert/write/exr_zip.h"
 
 /* OpenEXRCore puts the file together. It does not report writes that fail, so they are noted
  * here. */
@@ -30,36 +31,13 @@ enum { WITH_ALPHA = 0, WITHOUT_ALPHA = 1 }; /* of `written`, the first that ther
 
 /* ---- Lines ---- */
 
-/* Orders bytes as ZIPS wants them before deflation: first the even ones, then the odd ones,
- * each as the difference from the one before. */
-static void split(const uint8_t *from, size_t count, uint8_t *to) {
-    uint8_t *half[2] = {to, to + (count + 1) / 2};
-    for (size_t i = 0; i < count; i++) *half[i % 2]++ = from[i];
-    int before = count ? to[0] : 0;
-    for (size_t i = 1; i < count; i++) {
-        int now = to[i];
-        to[i] = (uint8_t)(now - before + 384);
-        before = now;
-    }
-}
-
-/* A block that does not get smaller is stored as it is. */
-static bool deflate(struct libdeflate_compressor *how, uint8_t *raw, size_t count,
+static bool deflate(struct libdeflate_compressor *how, const uint8_t *raw, size_t count,
                     uint8_t **out, size_t *out_bytes) {
-    uint8_t *merged = malloc(count + 1), *packed = malloc(count + 1);
-    bool enough = merged && packed;
-    if (enough) {
-        split(raw, count, merged);
-        *out_bytes =
-            count > 1 ? libdeflate_zlib_compress(how, merged, count, packed, count - 1) : 0;
-        if (!*out_bytes) {
-            memcpy(packed, raw, count);
-            *out_bytes = count;
-        }
-    }
+    uint8_t *merged = malloc(count + 1);
+    *out = malloc(count + 1);
+    bool enough = merged && *out;
+    if (enough) *out_bytes = wf_exr_zip(how, raw, count, merged, *out);
     free(merged);
-    if (!enough) free(packed);
-    *out = enough ? packed : NULL;
     return enough;
 }
 
@@ -78,8 +56,8 @@ weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *ou
     for (size_t c = first; good && c < WRITTEN; c++, to += each)
         memcpy(to, line->channel[written[c].channel], each);
     good = good && deflate(how, raw, bytes, &out->data, &out->data_bytes) &&
-           deflate(how, (uint8_t *)line->upto, (size_t)width * sizeof *line->upto, &out->table,
-                   &out->table_bytes);
+           deflate(how, (const uint8_t *)line->upto, (size_t)width * sizeof *line->upto,
+                   &out->table, &out->table_bytes);
     free(raw);
     if (how) libdeflate_free_compressor(how);
     return good ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "no memory for a line of samples");

@@ -1,6 +1,5 @@
-/* Image sequences: a file a frame, encoded in memory by the OpenImageIO module, so that a full
- * disk or a broken pipe is seen where bytes are written, and a file is at its name whole or not
- * at all. */
+/* Image sequences: a file a frame, encoded in memory, so that a full disk or a broken pipe is
+ * seen where bytes are written, and a file is at its name whole or not at all. */
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -14,13 +13,14 @@
 #include "convert/job/choices.h"
 #include "convert/job/colors.h"
 #include "convert/job/timecode.h"
-#include "convert/media/oiio/oiio.h"
+#include "convert/media/picture_out.h"
+#include "convert/write/exr_write.h"
+#include "convert/write/png_write.h"
 #include "convert/write/sink_kinds.h"
 
 struct wf_sink {
     wf_output_options options;
-    const char *format;
-    wf_oiio_write_fn *encode;
+    wf_encode_picture_fn *encode;
 };
 
 /* ---- Names ---- */
@@ -70,21 +70,29 @@ static weft_status check_absent(const wf_output_options *o, weft_error *err) {
 
 /* ---- Opening and writing ---- */
 
-static weft_status open_pictures(const wf_output_options *options, const char *format,
-                                 wf_sink **out, weft_error *err) {
+/* Formats that weft does not write itself are the OpenImageIO module's. */
+static weft_status find_encoder(const wf_output_options *options, const char *format,
+                                const char *entry, wf_encode_picture_fn **encode,
+                                weft_error *err) {
     void *symbol;
     char what[600];
-    snprintf(what, sizeof what, "%.500s: %s", options->output, format);
+    snprintf(what, sizeof what, "%.500s: %s (which .exr and .png are not)", options->output,
+             format);
+    weft_status status = wf_module_symbol("oiio", entry, what, &symbol, err);
+    if (!status) memcpy(encode, &symbol, sizeof symbol);
+    return status;
+}
+
+static weft_status open_pictures(const wf_output_options *options, wf_encode_picture_fn *encode,
+                                 wf_sink **out, weft_error *err) {
     weft_status status = check_name(options, err);
     if (!status) status = check_absent(options, err);
-    if (!status) status = wf_module_symbol("oiio", "wf_oiio_write", what, &symbol, err);
     if (status) return status;
     wf_sink *s = calloc(1, sizeof *s);
     if (!s)
         return wf_fail(err, WEFT_NO_MEMORY, "%.500s: no memory for the sequence",
                        options->output);
-    *s = (wf_sink){.options = *options, .format = format};
-    memcpy(&s->encode, &symbol, sizeof symbol);
+    *s = (wf_sink){.options = *options, .encode = encode};
     *out = s;
     return WEFT_OK;
 }
@@ -111,7 +119,7 @@ static void label_frame(const wf_output_options *o, int64_t index,
     wf_timecode_text(&label, text);
 }
 
-static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const char *path,
+static weft_status write_file(wf_sink *s, const wf_picture_out *picture, const char *path,
                               weft_error *err) {
     wf_outfile *file;
     weft_error why = {""};
@@ -127,15 +135,14 @@ static weft_status write_file(wf_sink *s, const wf_oiio_picture *picture, const 
                   : wf_fail(err, status, "%.600s: %.400s", path, why.text);
 }
 
-static void describe_light(const wf_chromaticities *c, wf_oiio_picture *picture) {
+static void describe_light(const wf_chromaticities *c, wf_picture_out *picture) {
     const double *const xy[4] = {c->red, c->green, c->blue, c->white};
     for (int i = 0; i < 8; i++) picture->chromaticities[i] = xy[i / 2][i % 2];
 }
 
-static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
+static wf_picture_out describe(const wf_sink *s, const wf_frame *frame) {
     const wf_output_options *o = &s->options;
-    wf_oiio_picture picture = {
-        .format = s->format,
+    wf_picture_out picture = {
         .width_px = o->raster->width_px,
         .lines = o->raster->lines,
         .bits = o->bits,
@@ -166,7 +173,7 @@ static wf_oiio_picture describe(const wf_sink *s, const wf_frame *frame) {
 }
 
 /* Turns the picture of a frame into that of one of its fields: every other line. */
-static void take_field(const wf_sink *s, int n, wf_oiio_picture *p) {
+static void take_field(const wf_sink *s, int n, wf_picture_out *p) {
     const wf_raster *raster = s->options.raster;
     int parity = wf_raster_parity(raster, n);
     size_t bytes = p->bits == 32 ? sizeof(float) : sizeof(uint16_t);
@@ -188,7 +195,7 @@ static weft_status write_frame(wf_sink *s, const wf_frame *frame, weft_error *er
     weft_status status = WEFT_OK;
     label_frame(o, frame->index, timecode);
     for (int n = 0; !status && n < files; n++) {
-        wf_oiio_picture picture = describe(s, frame);
+        wf_picture_out picture = describe(s, frame);
         picture.timecode = timecode;
         if (o->separate_fields) take_field(s, n, &picture);
         status = name_file(o, frame->index * files + n, path, err);
@@ -231,16 +238,25 @@ static wf_sink_size compressed_size(const wf_output_options *o, int64_t frames) 
     return (wf_sink_size){frames * (4096 * wf_output_files(o) + picture), WF_SIZE_MOST};
 }
 
-#define PICTURES(kind, oiio_name)                                                              \
-    static weft_status kind##_open(const wf_output_options *options, wf_sink **out,            \
-                                   weft_error *err) {                                          \
-        return open_pictures(options, oiio_name, out, err);                                    \
-    }
+static weft_status exr_open(const wf_output_options *options, wf_sink **out, weft_error *err) {
+    return open_pictures(options, wf_exr_encode, out, err);
+}
 
-PICTURES(exr, "openexr")
-PICTURES(dpx, "dpx")
-PICTURES(tiff, "tiff")
-PICTURES(png, "png")
+static weft_status png_open(const wf_output_options *options, wf_sink **out, weft_error *err) {
+    return open_pictures(options, wf_png_encode, out, err);
+}
+
+static weft_status dpx_open(const wf_output_options *options, wf_sink **out, weft_error *err) {
+    wf_encode_picture_fn *encode;
+    weft_status status = find_encoder(options, "DPX", "wf_oiio_dpx", &encode, err);
+    return status ? status : open_pictures(options, encode, out, err);
+}
+
+static weft_status tiff_open(const wf_output_options *options, wf_sink **out, weft_error *err) {
+    wf_encode_picture_fn *encode;
+    weft_status status = find_encoder(options, "TIFF", "wf_oiio_tiff", &encode, err);
+    return status ? status : open_pictures(options, encode, out, err);
+}
 
 #define BITS(n) (1u << (n))
 #define EITHER  (BITS(WF_FILL_PREMULTIPLIED) | BITS(WF_FILL_STRAIGHT))

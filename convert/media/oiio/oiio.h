@@ -3,6 +3,7 @@
 
 #include "convert/base/fail.h"
 #include "convert/media/image.h"
+#include "convert/media/picture_out.h"
 
 /* What the OpenImageIO module (convert/media/oiio) does for reading and writing: formats that
  * weft does not read or write itself. No function keeps anything between calls; any threads.
@@ -22,37 +23,6 @@ typedef weft_status wf_oiio_probe_fn(const char *path, int part, size_t max_memo
 typedef weft_status wf_oiio_read_fn(const char *path, int part, const int *channel, int count,
                                     const wf_box *data, float *planes, weft_error *err);
 
-/* A picture to be written whole: R G B planes and, of four channels, alpha, line_stride[c]
- * samples from line to line. */
-typedef struct wf_oiio_picture {
-    const char *format; /* "openexr", "dpx", "tiff", "png" */
-    int channels;       /* 3, 4 */
-    bool straight;      /* color is not multiplied by alpha */
-    const void *plane[4];
-    size_t line_stride[4];
-    int width_px, lines;
-    bool full_range;          /* codes reach from 0 to the highest */
-    int bits;                 /* 8, 10, 12, 16: uint16_t codes; 32: float samples */
-    wf_rational pixel_aspect; /* width over height of a pixel */
-    wf_rational frame_rate;   /* pictures a second */
-    int field;       /* 1, 2: it is the first or second field of a frame, alone; 0: not */
-    bool top_lines;  /* and that field has the frame's top line */
-    bool interlaced; /* two fields are woven into it */
-    bool top_first;
-    const char *timecode;     /* of the frame: "01:02:03;04"; "" for none */
-    const char *color_space;  /* "" if unknown */
-    double chromaticities[8]; /* x, y of red, green, blue and white of EXR; all 0: those of
-                                 color_space */
-    int primaries, transfer;  /* its code points of ITU-T H.273; 0: none */
-    const char *raster;       /* for weft:raster; "" for none */
-    wf_rational subframe_rate, time_s; /* of a subframe; {0, 0}: it is none */
-} wf_oiio_picture;
-
-/* Encodes the picture and hands its bytes to write, in order and whole (a writer that has to
- * seek is given memory to seek in). */
-typedef weft_status wf_oiio_bytes_fn(void *user, const void *data, size_t bytes,
-                                     weft_error *err);
-typedef weft_status wf_oiio_write_fn(const wf_oiio_picture *picture, wf_oiio_bytes_fn *write,
-                                     void *user, weft_error *err);
+/* "wf_oiio_dpx" and "wf_oiio_tiff" are each a wf_encode_picture_fn. */
 
 #endif

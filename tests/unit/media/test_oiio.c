@@ -12,6 +12,8 @@
 
 #include "convert/base/module.h"
 #include "convert/media/oiio/oiio.h"
+#include "convert/write/exr_write.h"
+#include "convert/write/png_write.h"
 #include "tests/unit/support/exr_write.h"
 #include "tests/unit/support/jobs.h"
 
@@ -21,20 +23,22 @@
 
 static wf_oiio_probe_fn *probe;
 static wf_oiio_read_fn *read_planes;
-static wf_oiio_write_fn *write_picture;
+static wf_encode_picture_fn *write_dpx, *write_tiff;
 
 static int find_module(void **state) {
-    static const char *const names[] = {"wf_oiio_probe", "wf_oiio_read", "wf_oiio_write"};
-    void *symbol[3];
+    static const char *const names[] = {"wf_oiio_probe", "wf_oiio_read", "wf_oiio_dpx",
+                                        "wf_oiio_tiff"};
+    void *symbol[4];
     weft_error err;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (wf_module_symbol("oiio", names[i], "a picture", &symbol[i], &err)) {
             print_message("skipped: %s\n", err.text);
             exit(77);
         }
     memcpy(&probe, &symbol[0], sizeof probe);
     memcpy(&read_planes, &symbol[1], sizeof read_planes);
-    memcpy(&write_picture, &symbol[2], sizeof write_picture);
+    memcpy(&write_dpx, &symbol[2], sizeof write_dpx);
+    memcpy(&write_tiff, &symbol[3], sizeof write_tiff);
     return job_make_directory(state);
 }
 
@@ -90,19 +94,25 @@ static unsigned code_at(size_t i, int c, int bits) {
     return (unsigned)(i * 97 + i / 5 * (size_t)(c + 1) * 31 + 1) & ((1u << bits) - 1);
 }
 
+static wf_encode_picture_fn *encoder_of(const char *format) {
+    return !strcmp(format, "dpx")    ? write_dpx
+           : !strcmp(format, "tiff") ? write_tiff
+           : !strcmp(format, "png")  ? wf_png_encode
+                                     : wf_exr_encode;
+}
+
 static void make(const char *name, const char *format, int bits) {
     static uint16_t code[3][WIDTH * LINES];
     static float linear[3][WIDTH * LINES];
-    wf_oiio_picture p = {.format = format,
-                         .channels = 3,
-                         .width_px = WIDTH,
-                         .lines = LINES,
-                         .bits = bits,
-                         .pixel_aspect = {1, 1},
-                         .frame_rate = {25, 1},
-                         .timecode = "10:00:00:00",
-                         .color_space = "rec709",
-                         .raster = "test"};
+    wf_picture_out p = {.channels = 3,
+                        .width_px = WIDTH,
+                        .lines = LINES,
+                        .bits = bits,
+                        .pixel_aspect = {1, 1},
+                        .frame_rate = {25, 1},
+                        .timecode = "10:00:00:00",
+                        .color_space = "rec709",
+                        .raster = "test"};
     weft_error err = {""};
     for (int c = 0; c < 3; c++) {
         for (size_t i = 0; i < WIDTH * LINES; i++) {
@@ -114,7 +124,7 @@ static void make(const char *name, const char *format, int bits) {
     }
     FILE *file = fopen(at(name), "wb");
     assert_non_null(file);
-    if (write_picture(&p, to_file, file, &err)) fail_msg("%s", err.text);
+    if (encoder_of(format)(&p, to_file, file, &err)) fail_msg("%s", err.text);
     assert_int_equal(fclose(file), 0);
 }
 
