@@ -103,7 +103,7 @@ convert/check/verify : filters/* color/* convert/base convert/job convert/media 
 convert/plot        : convert/base
 convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/check
 convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot
-convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/ask
+convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/ask convert/page
 convert/program/plan : convert/base convert/job convert/plan convert/program
 convert/program/page : filters/* convert/base convert/job convert/page convert/program
 convert             : filters/* color/* tracer/* convert/base convert/job convert/run convert/check

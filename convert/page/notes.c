@@ -1,4 +1,5 @@
 /* What is guessed on a page and what is left out. */
+#include <ctype.h>
 #include <inttypes.h>
 #include <string.h>
 
@@ -10,8 +11,9 @@ static bool any(const wf_page *page, bool (*has)(const wf_page_packed *)) {
     return false;
 }
 
-/* Begins an item, with the labels of the clips that it is about, unless it is about all. */
-static void begin(wf_text *text, const wf_page *page, bool (*has)(const wf_page_packed *)) {
+/* An item, which names the clips that it is about, unless it is about all. */
+static void add_item(wf_text *text, const wf_page *page, bool (*has)(const wf_page_packed *),
+                     const char *says) {
     size_t about = 0, named = 0;
     wf_text_add(text, "<li>");
     for (size_t i = 0; i < page->clips; i++) about += has(&page->clip[i]);
@@ -21,7 +23,8 @@ static void begin(wf_text *text, const wf_page *page, bool (*has)(const wf_page_
         wf_text_add_words(text, page->clip[i].label);
         wf_text_add(text, "</b>");
     }
-    if (named) wf_text_add(text, ": ");
+    wf_text_add(text, "%s%c%s</li>\n", named ? ": " : "", named ? *says : toupper(*says),
+                says + 1);
 }
 
 /* ---- What may be said ---- */
@@ -63,8 +66,8 @@ static const struct {
     const char *says;
 } rows[] = {
     {scan_is_guessed,
-     "guessed: the file does not say how it is scanned, and was taken for what "
-     "stands below; <code>--raster</code> says otherwise."},
+     "guessed: how it is scanned, which the file does not say; what it was taken "
+     "for stands below, and <code>--raster</code> says otherwise."},
     {range_is_guessed,
      "guessed: the file does not say its code range, and was taken for what its "
      "kind usually has."},
@@ -109,8 +112,7 @@ static void add_lengths(wf_text *text, const wf_page *page) {
 void wf_page_notes(wf_text *text, const wf_page *page) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (!any(page, rows[i].has)) continue;
-        begin(text, page, rows[i].has);
-        wf_text_add(text, "%s</li>\n", rows[i].says);
+        add_item(text, page, rows[i].has, rows[i].says);
     }
     add_lengths(text, page);
     wf_text_add(

@@ -14,12 +14,20 @@
 #include "convert/check/measure.h"
 #include "convert/page/parts.h"
 
+/* What is done with a clip, one after the other. */
+typedef enum stage { MAKE, MEASURE, PACK, STAGES } stage;
+
+static const char *const stage_names[] = {"convert", "measure", "pack"};
+
 typedef struct making {
     wf_page page;
-    double began_s;
-    int64_t steps_done, steps; /* frames to measure and to pack, of all clips */
-    const char *stage;
-    size_t packed_bytes; /* of clips before the one in hand */
+    double began_s, stage_began_s;
+    size_t clip; /* in hand */
+    stage stage;
+    double took_s[STAGES]; /* of the first clip, or what is usual */
+    int64_t frames;        /* of a clip, as far as it is known */
+    double done;           /* frames, as was told */
+    size_t packed_bytes;   /* of clips before the one in hand */
 } making;
 
 static const wf_page_request *request_of(const making *m) {
@@ -32,18 +40,49 @@ static void warn(const making *m, const char *text) {
 
 /* ---- Progress ---- */
 
-static void tell_progress(const making *m, int64_t further) {
-    int64_t done = m->steps_done + further;
-    const weft_progress progress = {.frames_done = done,
-                                    .frames_total = m->steps > done ? m->steps : done,
+/* Frames count as done by the share of a clip's time that stages have taken, since one takes
+ * several times as long as another. */
+static void tell_progress(making *m, double part) {
+    const wf_page_request *r = request_of(m);
+    double before = 0, all = 0;
+    for (int i = 0; i < STAGES; i++) {
+        all += m->took_s[i];
+        if (i < (int)m->stage) before += m->took_s[i];
+    }
+    double share = (before + fmin(part, 1) * m->took_s[m->stage]) / all;
+    m->done = fmax(m->done, ((double)m->clip + share) * (double)m->frames);
+    const weft_progress progress = {.frames_done = (int64_t)m->done,
+                                    .frame_part = m->done - floor(m->done),
+                                    .frames_total = m->frames * (int64_t)r->clips,
                                     .seconds = wf_now_s() - m->began_s,
-                                    .stage = m->stage};
-    if (request_of(m)->progress)
-        request_of(m)->progress(&progress, request_of(m)->progress_user);
+                                    .stage = stage_names[m->stage]};
+    if (r->progress) r->progress(&progress, r->progress_user);
+}
+
+static void begin_stage(making *m, stage of) {
+    m->stage = of;
+    m->stage_began_s = wf_now_s();
+}
+
+/* Later clips take as long as the first did. */
+static void end_stage(making *m) {
+    if (!m->clip) m->took_s[m->stage] = wf_now_s() - m->stage_began_s;
+}
+
+static void on_step(double part, int64_t frames, void *user) {
+    making *m = user;
+    if (frames > m->frames) m->frames = frames;
+    tell_progress(m, part);
 }
 
 static void on_measured(const weft_progress *progress, void *user) {
-    tell_progress(user, progress->frames_done);
+    on_step((double)progress->frames_done / (double)progress->frames_total,
+            progress->frames_total, user);
+}
+
+static weft_status check_cancelled(const making *m, weft_error *err) {
+    if (!request_of(m)->cancelled || !*request_of(m)->cancelled) return WEFT_OK;
+    return wf_fail(err, WEFT_INTERRUPTED, "interrupted; no page was written");
 }
 
 /* ---- Which clips can be shown ---- */
@@ -90,6 +129,16 @@ static weft_status check_alike(const wf_page_packed *a, const wf_page_packed *b,
                    wf_ratio_value(y->raster.frame_rate), rule);
 }
 
+static void tell_guess(const making *m, const wf_page_packed *clip) {
+    char text[1024];
+    if (clip->info.scan_known) return;
+    snprintf(text, sizeof text,
+             "%.500s does not say how it is scanned: it is taken for %s, %s; --raster says "
+             "otherwise",
+             clip->label, clip->info.raster.name, wf_raster_order(&clip->info.raster));
+    warn(m, text);
+}
+
 static weft_status look_at(making *m, size_t i, weft_error *err) {
     wf_page_packed *clip = &m->page.clip[i];
     const wf_page_request *r = request_of(m);
@@ -99,10 +148,11 @@ static weft_status look_at(making *m, size_t i, weft_error *err) {
     clip->info = *wf_video_info_of(video);
     clip->info.times = NULL; /* the video's */
     wf_video_close(video);
-    int64_t frames = clip->info.frames < 0 ? 0 : clip->info.frames - r->first;
+    int64_t frames = clip->info.frames - r->first;
     if (r->count && (clip->info.frames < 0 || frames > r->count)) frames = r->count;
-    m->steps += 2 * (frames > 0 ? frames : 0);
+    if (frames > m->frames) m->frames = frames;
     status = check_fields(clip->path, &clip->info, err);
+    if (!status) tell_guess(m, clip);
     return status || !i ? status : check_alike(&m->page.clip[0], clip, err);
 }
 
@@ -117,9 +167,9 @@ static weft_status measure(making *m, wf_page_packed *clip, weft_error *err) {
                                         .max_memory_bytes = r->max_memory_bytes,
                                         .progress = on_measured,
                                         .progress_user = m};
-    m->stage = "measure";
+    begin_stage(m, MEASURE);
     weft_status status = wf_measure(clip->path, &options, &clip->figures, err);
-    m->steps_done += clip->figures.frames;
+    end_stage(m);
     double top = isnan(clip->figures.flicker_p999) ? 0 : clip->figures.flicker_p999;
     m->page.heat_high = fmax(m->page.heat_high, top);
     return status;
@@ -131,50 +181,44 @@ static size_t as_text(size_t bytes) {
     return (bytes + 2) / 3 * 4;
 }
 
-static int64_t measured_frames(const making *m) {
-    int64_t frames = 0;
-    for (size_t i = 0; i < m->page.clips; i++) frames += m->page.clip[i].figures.frames;
-    return frames;
-}
-
 static weft_status check_size(const making *m, const wf_page_packed *clip, weft_error *err) {
     size_t most = request_of(m)->max_bytes, bytes, spare = (size_t)1 << 20;
     wf_packer_data(clip->fields, &bytes);
-    double all = (double)as_text(m->packed_bytes + bytes) + (double)spare;
-    if (all <= (double)most) return WEFT_OK;
+    size_t all = as_text(m->packed_bytes + bytes) + spare;
+    if (all <= most) return WEFT_OK;
     /* As many frames as there is room for, if all are like those so far. */
-    double frames = (double)m->steps_done - (double)measured_frames(m);
-    int64_t fits = (int64_t)(0.95 * frames / (double)m->page.clips);
+    double frames = (double)m->clip * (double)m->frames + (double)clip->frames;
+    double fits = 0.95 * frames * ((double)most - (double)spare) / (double)(all - spare) /
+                  (double)m->page.clips;
     return wf_fail(err, WEFT_FAILED,
-                   "the page would have more than %.0f MB (--max-size), after %" PRId64
-                   " frames of %.300s; show fewer frames, such as --frames %" PRId64 "-%" PRId64
-                   ", or fewer clips, or allow more",
-                   (double)most / 1e6, clip->frames, clip->path, request_of(m)->first,
-                   request_of(m)->first + (fits > 1 ? fits - 1 : 0));
+                   "the page would be larger than %.0f MB (--max-size): %.300s has reached it "
+                   "at frame %" PRId64 "; show fewer, such as %.0f frames, or fewer clips, or "
+                   "allow more",
+                   (double)most / 1e6, clip->label, clip->frames, fmax(1, floor(fits)));
 }
 
 static weft_status pack_frame(making *m, wf_page_packed *clip, wf_page_shown *shown,
                               const wf_video_frame *frame, weft_error *err) {
-    weft_status status = WEFT_OK;
+    weft_status status = check_cancelled(m, err);
     wf_page_shown_take(shown, frame);
-    for (int field = 0; field < 2 && !status; field++)
-        status = wf_packer_add(
-            clip->fields,
-            wf_page_shown_field(shown, wf_raster_parity(&clip->info.raster, field)), err);
+    for (int field = 0; field < 2 && !status; field++) {
+        int parity = wf_raster_parity(&clip->info.raster, field);
+        status = wf_packer_add(clip->fields, wf_page_shown_field(shown, parity), err);
+    }
     clip->frames++;
-    m->steps_done++;
-    if (!status) tell_progress(m, 0);
+    if (!status) on_step((double)clip->frames / (double)clip->figures.frames, clip->frames, m);
     return status ? status : check_size(m, clip, err);
 }
 
 static weft_status pack_frames(making *m, wf_page_packed *clip, wf_video *video,
                                wf_page_shown *shown, weft_error *err) {
-    const wf_page_request *r = request_of(m);
+    int64_t first = request_of(m)->first;
     const wf_video_frame *frame;
-    weft_status status = wf_video_next(video, &frame, err);
-    while (!status && frame && (!r->count || frame->index < r->first + r->count)) {
-        if (frame->index >= r->first) status = pack_frame(m, clip, shown, frame, err);
-        if (!status) status = wf_video_next(video, &frame, err);
+    weft_status status = WEFT_OK;
+    while (!status && clip->frames < clip->figures.frames) {
+        status = wf_video_next(video, &frame, err);
+        if (!status && !frame) break;
+        if (!status && frame->index >= first) status = pack_frame(m, clip, shown, frame, err);
     }
     return status;
 }
@@ -183,7 +227,7 @@ static weft_status pack(making *m, wf_page_packed *clip, weft_error *err) {
     wf_video *video = NULL;
     wf_page_shown *shown = NULL;
     size_t bytes;
-    m->stage = "pack";
+    begin_stage(m, PACK);
     weft_status status = open_clip(m, clip->path, &video, err);
     if (!status) status = wf_page_shown_new(&clip->info, &shown, err);
     if (!status) {
@@ -194,6 +238,7 @@ static weft_status pack(making *m, wf_page_packed *clip, weft_error *err) {
     wf_page_shown_free(shown);
     if (video) wf_video_close(video);
     if (status) return status;
+    end_stage(m);
     wf_packer_data(clip->fields, &bytes);
     m->packed_bytes += bytes;
     return WEFT_OK;
@@ -251,31 +296,35 @@ static void tell_lengths(const making *m) {
     warn(m, text);
 }
 
-static void tell_guesses(const making *m) {
-    char text[1024];
-    for (size_t i = 0; i < m->page.clips; i++) {
-        const wf_page_packed *clip = &m->page.clip[i];
-        if (clip->info.scan_known) continue;
-        snprintf(text, sizeof text,
-                 "%.500s does not say how it is scanned: it is taken for %s, %s; --raster says "
-                 "otherwise",
-                 clip->path, clip->info.raster.name, wf_raster_order(&clip->info.raster));
-        warn(m, text);
-    }
+/* ---- All of it ---- */
+
+/* Makes a clip, if that is to be done. */
+static weft_status make(making *m, wf_page_packed *clip, weft_error *err) {
+    const wf_page_request *r = request_of(m);
+    if (!r->make_clip) return WEFT_OK;
+    begin_stage(m, MAKE);
+    weft_status status = r->make_clip(r->make_user, m->clip, on_step, m, &clip->path, err);
+    end_stage(m);
+    return status ? status : look_at(m, m->clip, err);
 }
 
-/* ---- All of it ---- */
+static weft_status take_clip(making *m, weft_error *err) {
+    wf_page *page = &m->page;
+    wf_page_packed *clip = &page->clip[m->clip];
+    weft_status status = make(m, clip, err);
+    if (!status) status = check_cancelled(m, err);
+    if (!status) status = measure(m, clip, err);
+    if (!status) status = pack(m, clip, err);
+    if (!m->clip || clip->frames < page->frames) page->frames = clip->frames;
+    return status;
+}
 
 static weft_status gather(making *m, weft_error *err) {
     wf_page *page = &m->page;
     weft_status status = name_page(m, err);
-    for (size_t i = 0; i < page->clips && !status; i++) status = look_at(m, i, err);
-    if (!status) tell_guesses(m);
-    for (size_t i = 0; i < page->clips && !status; i++) {
-        status = measure(m, &page->clip[i], err);
-        if (!status) status = pack(m, &page->clip[i], err);
-        if (!i || page->clip[i].frames < page->frames) page->frames = page->clip[i].frames;
-    }
+    for (size_t i = 0; i < page->clips && !status && !request_of(m)->make_clip; i++)
+        status = look_at(m, i, err);
+    for (m->clip = 0; m->clip < page->clips && !status; m->clip++) status = take_clip(m, err);
     page->heat_high = wf_heat_top(page->heat_high);
     for (size_t i = 0; i < page->clips && !status; i++)
         status = pack_heat(m, &page->clip[i], err);
@@ -307,17 +356,26 @@ weft_status wf_page_check_name(const char *path, bool overwrite, weft_error *err
     return status;
 }
 
-weft_status wf_page_make(const wf_page_request *request, const char *path, weft_error *err) {
-    making m = {.page = {.request = request, .clips = request->clips}, .began_s = wf_now_s()};
+/* Opened when all else is done, so that nothing is there that could stay unfinished. */
+static weft_status write_file(const wf_page *page, const char *path, weft_error *err) {
     wf_outfile *file;
-    weft_status status = check_ending(path, err);
-    if (!status) status = wf_outfile_open(path, request->overwrite, &file, err);
+    weft_status status = wf_outfile_open(path, page->request->overwrite, &file, err);
+    if (status) return status;
+    status = wf_page_write(page, file, err);
+    if (!status) return wf_outfile_commit(file, err);
+    wf_outfile_abandon(file);
+    return status;
+}
+
+weft_status wf_page_make(const wf_page_request *request, const char *path, weft_error *err) {
+    making m = {.page = {.request = request, .clips = request->clips},
+                .began_s = wf_now_s(),
+                .took_s = {request->make_clip ? 5 : 0, 3.5, 1}};
+    weft_status status = wf_page_check_name(path, request->overwrite, err);
     if (status) return status;
     m.page.clip = calloc(request->clips, sizeof *m.page.clip);
     status = m.page.clip ? gather(&m, err) : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    if (!status) status = wf_page_write(&m.page, file, err);
+    if (!status) status = write_file(&m.page, path, err);
     release(&m.page);
-    if (!status) return wf_outfile_commit(file, err);
-    wf_outfile_abandon(file);
     return status;
 }

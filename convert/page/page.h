@@ -2,6 +2,8 @@
 #ifndef WF_CONVERT_PAGE_PAGE_H
 #define WF_CONVERT_PAGE_PAGE_H
 
+#include <signal.h>
+
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
 
@@ -11,9 +13,16 @@
 /* A clip to show: finished interlaced or segmented video of any kind that convert/read/video.h
  * opens, but for standard input, as it is read twice. */
 typedef struct wf_page_clip {
-    const char *path;
+    const char *path;  /* NULL where make_clip says it */
     const char *label; /* for people; NULL: the file's name */
 } wf_page_clip;
+
+/* How far a clip is that is made for the page: a part from 0 to 1, and its frames. */
+typedef void wf_page_step_fn(double part, int64_t frames, void *user);
+
+/* Makes clip `number` when its turn has come, and says where it is until the next is made. */
+typedef weft_status wf_page_make_fn(void *user, size_t number, wf_page_step_fn *step,
+                                    void *step_user, const char **path, weft_error *err);
 
 typedef struct wf_page_request {
     const wf_page_clip *clip;
@@ -24,6 +33,9 @@ typedef struct wf_page_request {
     size_t max_bytes;           /* of the page */
     size_t max_memory_bytes;    /* of a picture in hand */
     bool overwrite;             /* a page that is there */
+    wf_page_make_fn *make_clip; /* NULL: clips are there, and all are looked at first */
+    void *make_user;
+    const volatile sig_atomic_t *cancelled; /* not 0: to stop soon; NULL: never */
     weft_progress_fn *progress; /* called after every frame that is measured or packed; NULL */
     void *progress_user;
     weft_warning_fn *warning; /* what is guessed or left out; NULL */

@@ -238,12 +238,12 @@
 
   function drawHeat() {
     player.panels.forEach(function (panel) {
-      if (!player.heat) {
+      if (!player.heat || !panel.variant) {
         if (panel.hot) panel.hot.remove();
         panel.hot = null;
         return;
       }
-      var image = panel.variant && heatOf(panel.variant), canvas = heatCanvas(panel);
+      var image = heatOf(panel.variant), canvas = heatCanvas(panel);
       canvas.width = player.clip.width;
       canvas.height = player.clip.lines;
       if (image) canvas.getContext("2d").putImageData(image, 0, 0);
@@ -253,6 +253,7 @@
 
   player.setHeat = function (heat) {
     player.heat = heat === true || heat === "on";
+    root.classList.toggle("heated", player.heat);
     root.querySelector('[data-set="heat"]').value = player.heat ? "on" : "off";
     drawHeat();
   };
@@ -310,6 +311,7 @@
     setRates();
     legend();
     player.setZoom(player.zoom);
+    if (single()) wanted.pop();
     return Promise.all(wanted.map(function (name, k) { return player.setVariant(k, name); }))
       .then(function () { player.ready = true; player.draw(); });
   };
@@ -325,6 +327,7 @@
   function size() {
     var scale = player.zoom * window.exactScale();
     root.style.setProperty("--raster", player.clip.width * window.exactScale() + "px");
+    root.style.setProperty("--shown", player.clip.width * scale + "px");
     root.querySelectorAll(".screen canvas").forEach(function (canvas) {
       canvas.style.width = player.clip.width * scale + "px";
       canvas.style.height = player.clip.lines * scale + "px";

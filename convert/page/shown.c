@@ -141,12 +141,10 @@ static void take_ycbcr(wf_page_shown *s, int p, int y) {
     for (int x = 0; x < width; x++) to[x] = code(zero + unit * from[x]);
 }
 
-/* R'G'B' of a line, of the colors that the page is shown in. */
-static void find_rgb(wf_page_shown *s, int y, float *rgb[3]) {
+void wf_page_shown_rgb(const wf_page_shown *s, int y, float *const rgb[3]) {
     size_t width = (size_t)s->info.width_px, at = (size_t)y * width;
     bool coded = !s->signal->is_ycbcr;
     for (int p = 0; p < 3; p++) {
-        rgb[p] = s->line + (size_t)p * width;
         const float *from = coded ? s->signal->coded.plane[p] : s->signal->ycbcr[p];
         memcpy(rgb[p], from + at, width * sizeof *rgb[p]);
     }
@@ -155,9 +153,10 @@ static void find_rgb(wf_page_shown *s, int y, float *rgb[3]) {
 }
 
 static void take_rgb(wf_page_shown *s, int y) {
-    float *rgb[3];
+    size_t width = (size_t)s->info.width_px;
+    float *rgb[3] = {s->line, s->line + width, s->line + 2 * width};
     uint8_t *to[3] = {line_of(s, 0, y), line_of(s, 1, y), line_of(s, 2, y)};
-    find_rgb(s, y, rgb);
+    wf_page_shown_rgb(s, y, rgb);
     for (int x = 0; x < s->info.width_px; x++) {
         uint8_t r = code(255 * rgb[0][x]), g = code(255 * rgb[1][x]), b = code(255 * rgb[2][x]);
         to[0][x] = g;

@@ -34,4 +34,8 @@ void wf_page_shown_take(wf_page_shown *shown, const wf_video_frame *frame);
  * next frame is taken. */
 const uint8_t *const *wf_page_shown_field(const wf_page_shown *shown, int parity);
 
+/* R'G'B' of line y of the frame, from 0 to 1 and beyond, in the colors of the page, chroma
+ * brought to every pixel by the half-band of Rec. BT.601: [width_px] each. */
+void wf_page_shown_rgb(const wf_page_shown *shown, int y, float *const rgb[3]);
+
 #endif

@@ -94,11 +94,10 @@ static void add_figures(wf_json *json, const wf_figures *f) {
     char text[160] = "";
     int used = 0;
     if (!isnan(f->flicker_rms))
-        used =
-            snprintf(text, sizeof text, "flicker RMS %.3g, 99.9 %% below %.3g, seen %.2g JND",
-                     f->flicker_rms, f->flicker_p999, f->visible_jnd_p999);
+        used = snprintf(text, sizeof text, "flicker %.3g RMS, seen %.2g JND", f->flicker_rms,
+                        f->visible_jnd_p999);
     if (!isnan(f->crawl_jnd_p999))
-        snprintf(text + used, sizeof text - (size_t)used, "%scrawl %.2g JND", used ? "; " : "",
+        snprintf(text + used, sizeof text - (size_t)used, "%scrawl %.2g JND", used ? " · " : "",
                  f->crawl_jnd_p999);
     wf_json_text(json, "figures", text);
 }

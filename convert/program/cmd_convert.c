@@ -28,7 +28,7 @@ const wf_cmd wf_cmd_convert = {
         "frame, as 'weft trace' and other renderers write them.\n",
     .notes = wf_job_command_notes,
     .options = wf_job_command_options,
-    .option_count = WF_JOB_COMMAND_OPTIONS,
+    .option_count = WF_VIDEO_COMMAND_OPTIONS,
     .taken_by = WF_TAKEN_BY_CONVERT,
     .run = wf_job_command_run,
 };

@@ -25,7 +25,7 @@ const wf_cmd wf_cmd_render = {
         "      -o carousel.####.dpx\n",
     .notes = wf_job_command_notes,
     .options = wf_job_command_options,
-    .option_count = WF_JOB_COMMAND_OPTIONS,
+    .option_count = WF_VIDEO_COMMAND_OPTIONS,
     .taken_by = WF_TAKEN_BY_RENDER,
     .run = wf_job_command_run,
 };

@@ -11,9 +11,11 @@
 #include "convert/base/outfile.h"
 #include "convert/job/job.h"
 #include "convert/job/jobfile.h"
+#include "convert/page/compare.h"
+#include "convert/page/preview.h"
 
 typedef struct job_state {
-    const char *output, *progress, *report;
+    const char *output, *progress, *report, *compare, *preview, *preview_frame;
     bool quiet;
     wf_cmd_list jobs, kept; /* job files, and values that they gave */
     wf_meter meter;
@@ -96,6 +98,57 @@ static void say_done(const job_state *state) {
     if (!state->quiet && state->meter.show && !state->progress) wf_cmd_say("", text);
 }
 
+/* ---- Pages and previews ---- */
+
+/* What --compare asks for, made into the page that the output names. */
+static weft_status compare(job_state *state, weft_job *job, weft_error *err) {
+    const wf_page_request request = {.max_bytes = WF_PAGE_MOST_BYTES,
+                                     .max_memory_bytes = job->max_memory_bytes,
+                                     .progress = wf_meter_update,
+                                     .progress_user = &state->meter,
+                                     .warning = on_warning,
+                                     .warning_user = state};
+    if (state->report)
+        return wf_fail(err, WEFT_USAGE, "--report is of one run, and --compare makes several");
+    if (state->preview)
+        return wf_fail(err, WEFT_USAGE,
+                       "--preview is of one video, and --compare makes several; give it to "
+                       "weft page, or to a run of its own");
+    weft_job_on_warning(job, on_warning, state);
+    weft_job_on_print(job, on_print, state);
+    wf_cmd_catch_signals(job);
+    weft_status status = wf_page_compare(job, state->compare, &request, err);
+    wf_cmd_ignore_signals();
+    wf_meter_clear(&state->meter);
+    return status;
+}
+
+static weft_status refuse_page(const char *output, weft_error *err) {
+    const char *dot = output ? strrchr(output, '.') : NULL;
+    if (!dot || (strcmp(dot, ".html") != 0 && strcmp(dot, ".htm") != 0)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "%.300s: a page is made of several apertures, --compare box,shaped, or of "
+                   "finished video, 'weft page shot.y4m -o look.html'",
+                   output);
+}
+
+static weft_status read_preview(const job_state *state, const weft_job *job,
+                                wf_preview_request *preview, weft_error *err) {
+    *preview = (wf_preview_request){.video = job->output,
+                                    .raster = &job->raster,
+                                    .frame = -1,
+                                    .max_memory_bytes = job->max_memory_bytes,
+                                    .overwrite = job->overwrite};
+    if (!state->preview) return WEFT_OK;
+    if (!job->output || !strcmp(job->output, "-") || job->dry_run)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--preview looks at the video that was written: give an output that is a "
+            "file, and no --dry-run");
+    weft_status status = wf_preview_read_frame(state->preview_frame, &preview->frame, err);
+    return status ? status : wf_preview_check_name(state->preview, job->overwrite, err);
+}
+
 static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
@@ -114,13 +167,27 @@ static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
     return finished && written ? written : status;
 }
 
+/* Runs the job, and looks at what it has written. */
+static weft_status run_and_preview(job_state *state, weft_job *job, weft_error *err) {
+    wf_preview_request preview;
+    weft_status status = refuse_page(job->output, err);
+    if (!status) status = read_preview(state, job, &preview, err);
+    if (!status) status = run_job(state, job, err);
+    if (!state->preview || (status && status != WEFT_DEGRADED)) return status;
+    weft_status shown = wf_preview_write(&preview, state->preview, err);
+    return shown ? shown : status;
+}
+
 weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
     job_state state = {0};
     weft_job *job = weft_job_new();
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = weft_job_set_command(job, cmd->name, err);
     if (!status) status = fill_job(cmd, argc, argv, &state, job, err);
-    if (!status) status = run_job(&state, job, err);
+    if (!status && state.compare)
+        status = compare(&state, job, err);
+    else if (!status)
+        status = run_and_preview(&state, job, err);
     weft_job_free(job);
     wf_cmd_forget(&state.kept);
     return status;
@@ -130,7 +197,7 @@ weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_er
 
 static const char output[] = "Output and messages";
 
-const wf_cmd_option wf_job_command_options[WF_JOB_COMMAND_OPTIONS] = {
+const wf_cmd_option wf_job_command_options[WF_VIDEO_COMMAND_OPTIONS] = {
     {{"output", "OUTPUT", NULL,
       "Where to write: .y4m, .v210, .uyvy, .mov, .mp4, .mxf, .mkv, or a sequence such as "
       "out.####.dpx "
@@ -150,6 +217,19 @@ const wf_cmd_option wf_job_command_options[WF_JOB_COMMAND_OPTIONS] = {
       output},
      .offset = offsetof(job_state, jobs),
      .repeats = true},
+    /* Of video alone: */
+    {{"compare", "A,B,..", NULL,
+      "Make the video through each of these apertures, with +limit=E and +weight=MU behind "
+      "them where flicker is held, and a page of all: --compare box,shaped,line+limit=.06 -o "
+      "look.html.",
+      output},
+     .offset = offsetof(job_state, compare)},
+    {{"preview", "FILE.png", NULL,
+      "Also make a picture of one frame, with square pixels and no comb.", output},
+     .offset = offsetof(job_state, preview)},
+    {{"preview-frame", "N", "the middle one", "Which frame of the output that is, from 0.",
+      output},
+     .offset = offsetof(job_state, preview_frame)},
 };
 
 const char wf_job_command_notes[] =

@@ -6,11 +6,14 @@
 #include "convert/base/fail.h"
 #include "convert/base/range.h"
 #include "convert/base/values.h"
+#include "convert/job/job.h"
 #include "convert/page/page.h"
+#include "convert/page/preview.h"
 #include "convert/program/cmd.h"
 
 typedef struct page_state {
     const char *output, *raster_name, *frames, *title, *progress, *max_size, *max_memory;
+    const char *preview, *preview_frame;
     wf_cmd_list labels;
     bool overwrite, quiet;
     wf_meter meter;
@@ -70,7 +73,10 @@ static weft_status read_clips(page_state *s, int clips, char **paths, wf_page_re
     if (s->labels.count > (size_t)clips)
         return wf_fail(err, WEFT_USAGE, "--label is given %zu times, and there are %d clips",
                        s->labels.count, clips);
-    if (!s->output) return wf_fail(err, WEFT_USAGE, "where to is not said; give -o look.html");
+    if (!s->output && !s->preview)
+        return wf_fail(err, WEFT_USAGE, "where to is not said; give -o look.html");
+    if (s->preview && clips > 1)
+        return wf_fail(err, WEFT_USAGE, "--preview is of one clip, and %d are given", clips);
     for (size_t i = 0; i < (size_t)clips; i++)
         s->clip[i] = (wf_page_clip){.path = paths[i],
                                     .label = i < s->labels.count ? s->labels.value[i] : NULL};
@@ -97,15 +103,39 @@ static weft_status read_state(page_state *s, int clips, char **paths, wf_page_re
     return status ? status : read_size("max-memory", s->max_memory, &r->max_memory_bytes, err);
 }
 
+/* ---- Running ---- */
+
+static weft_status preview(const page_state *s, const wf_page_request *r, weft_error *err) {
+    wf_preview_request preview = {.video = s->clip[0].path,
+                                  .raster = r->raster,
+                                  .frame = -1,
+                                  .max_memory_bytes = r->max_memory_bytes,
+                                  .overwrite = s->overwrite};
+    weft_status status = wf_preview_read_frame(s->preview_frame, &preview.frame, err);
+    return status ? status : wf_preview_write(&preview, s->preview, err);
+}
+
+/* Signals cancel a job, which has nothing else to do here. */
+static weft_status make_page(page_state *s, wf_page_request *r, weft_error *err) {
+    weft_job *job = weft_job_new();
+    if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    r->cancelled = &job->cancelled;
+    wf_cmd_catch_signals(job);
+    weft_status status = wf_page_make(r, s->output, err);
+    wf_cmd_ignore_signals();
+    wf_meter_clear(&s->meter);
+    weft_job_free(job);
+    return status;
+}
+
 static weft_status run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
     page_state state = {0};
     wf_page_request request;
     int clips = 0;
     weft_status status = wf_cmd_parse(cmd, argc, argv, &state, NULL, &clips, err);
     if (!status) status = read_state(&state, clips, argv, &request, err);
-    if (!status) status = wf_page_make(&request, state.output, err);
-    wf_meter_clear(&state.meter);
-    return status;
+    if (!status && state.preview) status = preview(&state, &request, err);
+    return !status && state.output ? make_page(&state, &request, err) : status;
 }
 
 /* ---- What it says of itself ---- */
@@ -130,6 +160,14 @@ static const wf_cmd_option options[] = {
     {{"output", "FILE", NULL, "Where to write: a file that ends in .html.", writing},
      .letter = 'o',
      .offset = STATE(output)},
+    {{"preview", "FILE.png", NULL,
+      "Also, or instead, make a picture of one frame of a clip, with square pixels and no "
+      "comb.",
+      writing},
+     .offset = STATE(preview)},
+    {{"preview-frame", "N", "the middle one", "Which frame of the clip that is, from 0.",
+      writing},
+     .offset = STATE(preview_frame)},
     {{"max-size", "SIZE", "100M", "How large the page may be at most.", writing},
      .offset = STATE(max_size)},
     {{"max-memory", "SIZE", "2G", "How much memory a frame in hand may take.", writing},

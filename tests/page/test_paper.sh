@@ -18,5 +18,5 @@ check "no page is left" test ! -e none/index.html
 only=() part=part
 if is_long; then part=whole; else only=(--only lattice); fi
 check "page" python3 -B "$paper/build.py" --weft "$WEFT" --out page --quick "${only[@]}"
-check "what it shows" python3 -B "$WEFT_SOURCE/tests/program/paper_page.py" page/index.html "$chromium" $part
+check "what it shows" python3 -B "$WEFT_SOURCE/tests/page/paper_page.py" page/index.html "$chromium" $part
 finish

@@ -1,0 +1,112 @@
+#!/bin/bash
+# convert and render with --compare, a page in one step, and with --preview, a frame for a computer's screen.
+. "$WEFT_SOURCE/tests/program/script.sh"
+not_sanitized "test_page_inputs makes pages"
+needs python3
+subframes in 32
+raster=(--raster '90x64@30i,tff,par=10:11' --subframe-rate 480)
+export TMPDIR=$work/temporary
+mkdir temporary
+
+# ---- One page of several runs ----
+
+list=box,shaped,least:4,line+limit=.06,mitchell:1,0,line+weight=2+limit=visible:1
+check "a page of six apertures" exits 0 weft convert in "${raster[@]}" --compare $list -o look.html --progress plain
+check "progress is told" says "12 of 12 frames"
+check "nothing is left where the clips were" test -z "$(ls -A temporary)"
+check "each clip has its entry for a name" python3 - <<'END'
+import json, re
+text = open("look.html", encoding="utf-8").read()
+data = json.loads(re.search(r'id="player-data">(.*?)</script>', text, re.S).group(1))
+labels = [v["label"] for v in data["clips"][0]["variants"]]
+assert labels == ["box", "shaped", "least:4", "line+limit=.06", "mitchell:1,0", "line+weight=2+limit=visible:1"], labels
+END
+# The same as page makes of runs one by one.
+weft convert in "${raster[@]}" --aperture box -q -o box.y4m
+weft convert in "${raster[@]}" --aperture line --flicker-limit .06 -q -o line.y4m
+weft page box.y4m line.y4m --label box --label line+limit=.06 -q -o by_hand.html
+check "two of them" exits 0 weft convert in "${raster[@]}" --compare box,line+limit=.06 -q -o two.html
+check "the page is the one that page makes of both videos" cmp two.html by_hand.html
+# What the command line holds goes for entries that say nothing else.
+weft convert in "${raster[@]}" --aperture line --flicker-weight 2 -q -o weighed.y4m
+weft page weighed.y4m --label line -q -o by_hand.html --overwrite
+check "a weight of the command line" exits 0 weft convert in "${raster[@]}" --flicker-weight 2 --compare line \
+    -q -o weighed.html
+check "is that of the page" cmp weighed.html by_hand.html
+check "render compares too" exits 0 weft render "$WEFT_SOURCE/examples/scenes/zoneplate.lua" \
+    --raster '48x36@25i,tff' --frames 0-1 --samples 4 --compare box,shaped -q -o rendered.html
+echo "{\"inputs\": [\"in\"], \"subframe-rate\": 480, \"raster\": \"90x64@30i,tff\", \"compare\": \"box\", \"output\": \"job.html\"}" >job.json
+check "a job file may ask for it" exits 0 weft convert --job job.json -q
+check "beside the file" test -s job.html
+
+no=("${raster[@]}" -o no.html)
+check "an aperture that is none" refuses "shapd" convert in "${no[@]}" --compare box,shapd
+check "what is held and is none" refuses "+limit=E" convert in "${no[@]}" --compare box+much=3
+check "a limit that is none" refuses "flicker-limit" convert in "${no[@]}" --compare box+limit=-3
+check "an empty entry" refuses "is empty" convert in "${no[@]}" --compare box,
+check "a progressive raster" refuses "progressive" convert in --raster 1080p25 --compare box -o no.html
+check "a page that is video" refuses "page is HTML" convert in "${raster[@]}" --compare box -o no.y4m
+check "video that is a page" refuses "--compare box,shaped" convert in "${no[@]}"
+check "a page without a name" refuses "where to" convert in "${raster[@]}" --compare box
+check "a chunk" refuses "--chunk" convert in "${no[@]}" --compare box --chunk 1/2
+check "a report" refuses "--report" convert in "${no[@]}" --compare box --report r.json
+check "a page that is there" fails "exists" weft convert in "${raster[@]}" --compare box -o look.html
+check "an input that is not" fails "" weft convert nowhere "${no[@]}" --compare box
+check "no place for clips" fails "TMPDIR" env TMPDIR=$work/nowhere "$WEFT" convert in "${no[@]}" --compare box
+check "nothing of these was written" test ! -e no.html -a -z "$(ls -A temporary)"
+mkdir left
+check "an interrupted page" interrupted INT 130 1 "$WEFT" render "$WEFT_SOURCE/examples/scenes/carousel.lua" \
+    --compare box,shaped -q -o left/look.html
+check "leaves no clips" test -z "$(ls -A temporary)"
+
+# ---- Previews ----
+
+# square.py PNG WxH EXPRESSION: it is a whole PNG of that size of which that is so.
+cat >square.py <<'END'
+import struct, sys, zlib
+data = open(sys.argv[1], "rb").read()
+width, lines, bits, kind = struct.unpack(">IIBB", data[16:26])
+want = tuple(map(int, sys.argv[2].split("x")))
+assert (width, lines, bits, kind) == want + (8, 2), (width, lines, bits, kind)
+at, body = 8, b""
+while at < len(data):
+    size, name = struct.unpack(">I4s", data[at:at + 8])
+    assert zlib.crc32(data[at + 4:at + 8 + size]) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+    body += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
+    at += 12 + size
+raw, rows = zlib.decompress(body), []
+for y in range(lines):
+    row = bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
+    assert raw[y * (3 * width + 1)] == 2
+    rows.append(bytearray((a + b) & 255 for a, b in zip(row, rows[-1])) if rows else row)
+# A comb: a line that is far from both neighbors, on the same side.
+comb = sum(min(abs(b - a), abs(b - c)) > 24 and (b > a) == (b > c)
+           for y in range(1, lines - 1) for a, b, c in zip(rows[y - 1][::3], rows[y][::3], rows[y + 1][::3]))
+share = comb / width / lines
+assert eval(sys.argv[3], {"share": share, "rows": rows}), share
+END
+preview() { python3 square.py "$@"; }
+check "a video and its preview" exits 0 weft convert in --subframe-rate 480 --raster '180x122@30i,tff,par=10:11' \
+    --aperture box -q -o shot.y4m --preview shot.png
+check "has square pixels and no comb" preview shot.png 164x122 "share < 0.004"
+check "a frame of finished video" exits 0 weft page shot.y4m --preview frame.png --preview-frame 1
+check "the middle one is that of the run" cmp frame.png shot.png
+check "another is another" exits 0 weft page shot.y4m --preview first.png --preview-frame 0
+differ() { ! cmp -s "$1" "$2"; }
+check "indeed" differ first.png shot.png
+check "pictures that are a video" exits 0 weft convert in --subframe-rate 480 --raster '60x40@30i,tff' -q \
+    -o pictures.####.png --preview pictures.png
+check "have one too" preview pictures.png 60x40 "True"
+check "progressive video" exits 0 weft convert in --subframe-rate 480 --raster '60x40@60p' -q -o p.y4m --preview p.png
+check "video without light" exits 0 weft convert in --subframe-rate 480 --raster '60x40@30i,tff' --exposure -32 -q \
+    -o black.y4m --preview black.png
+check "has a black preview" preview black.png 60x40 "all(not any(row) for row in rows)"
+check "a preview that is no PNG" refuses "PNG" convert in "${raster[@]}" -o x.y4m --preview x.jpg
+check "a preview of a pipe" refuses "--preview" convert in "${raster[@]}" -o - --preview x.png
+check "a preview of a dry run" refuses "--preview" convert in "${raster[@]}" -o x.y4m --dry-run --preview x.png
+check "a frame that is none" refuses "preview-frame" convert in "${raster[@]}" -o x.y4m --preview x.png --preview-frame -1
+check "a preview that is there" fails "exists" weft convert in "${raster[@]}" -o x.y4m --preview shot.png
+check "nothing of these was written" test ! -e x.y4m -a ! -e x.png
+check "a frame that is not there" exits 2 weft page shot.y4m --preview x.png --preview-frame 2
+check "is told with what there is" says "it has 2"
+finish
