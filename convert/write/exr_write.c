@@ -1,56 +1,50 @@
-/* Writes pictures of floats as OpenEXR, through its C core. */
+/* Writes pictures of floats as OpenEXR. */
 #include "convert/write/exr_write.h"
 
-#include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/write/exr_zip.h"
 
-enum { CHUNK_LINES = 16, DEFLATE_LEVEL = 4 };
-
-/* ---- The file, in memory ---- */
-
-/* OpenEXRCore fills its table of chunks in last, and does not report writes that fail. */
-typedef struct memory {
-    uint8_t *bytes;
-    size_t used, size;
-    bool out; /* there was no more */
-} memory;
-
-static bool make_room(memory *m, size_t bytes) {
-    size_t size = 2 * m->size > bytes ? 2 * m->size : bytes;
-    if (bytes <= m->size) return true;
-    uint8_t *more = realloc(m->bytes, size);
-    m->out |= !more;
-    if (!more) return false;
-    m->bytes = more;
-    m->size = size;
-    return true;
-}
-
-static int64_t put_bytes(exr_const_context_t exr, void *user, const void *data, uint64_t bytes,
-                         uint64_t at, exr_stream_error_func_ptr_t error) {
-    memory *m = user;
-    (void)exr, (void)error;
-    if (m->out || !make_room(m, (size_t)(at + bytes))) return -1;
-    if (at > m->used) memset(m->bytes + m->used, 0, (size_t)at - m->used);
-    memcpy(m->bytes + at, data, (size_t)bytes);
-    if (at + bytes > m->used) m->used = (size_t)(at + bytes);
-    return (int64_t)bytes;
-}
-
-static void say_nothing(exr_const_context_t exr, exr_result_t code, const char *says) {
-    (void)exr, (void)code, (void)says;
-}
+enum { CHUNK_LINES = 16, CHUNK_HEAD = 8, DEFLATE_LEVEL = 4, HEADER_BYTES = 8192 };
 
 /* ---- The header ---- */
+
+/* What a file begins with. Numbers are little-endian, as this machine has them. */
+typedef struct header {
+    uint8_t bytes[HEADER_BYTES];
+    size_t used;
+    bool full; /* something did not fit */
+} header;
+
+static void put(header *h, const void *data, size_t bytes) {
+    h->full |= bytes > HEADER_BYTES - h->used;
+    if (h->full) return;
+    memcpy(h->bytes + h->used, data, bytes);
+    h->used += bytes;
+}
+
+static void put_name(header *h, const char *name) {
+    put(h, name, strlen(name) + 1);
+}
+
+static void put_int(header *h, int32_t value) {
+    put(h, &value, sizeof value);
+}
+
+static void put_attribute(header *h, const char *name, const char *type, const void *value,
+                          size_t bytes) {
+    put_name(h, name);
+    put_name(h, type);
+    put_int(h, (int32_t)bytes);
+    put(h, value, bytes);
+}
 
 /* CIE x and y of red, green, blue and white, which EXR takes for Rec. 709's where nothing is
  * said. */
 static const struct {
     const char *space; /* how its name begins */
-    exr_attr_chromaticities_t xy;
+    float xy[8];
 } primaries[] = {{"rec601-525", {.63f, .34f, .31f, .595f, .155f, .07f, .3127f, .329f}},
                  {"rec601-625", {.64f, .33f, .29f, .6f, .15f, .06f, .3127f, .329f}},
                  {"rec709", {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f}},
@@ -63,60 +57,33 @@ static const struct {
                  {"ACEScg", {.713f, .293f, .165f, .83f, .128f, .044f, .32168f, .33767f}},
                  {"ACES2065-1", {.7347f, .2653f, 0, 1, .0001f, -.077f, .32168f, .33767f}}};
 
-/* False where nothing is known of the space. */
-static bool primaries_of(const wf_picture_out *p, exr_attr_chromaticities_t *xy) {
-    const double *c = p->chromaticities;
-    *xy = (exr_attr_chromaticities_t){(float)c[0], (float)c[1], (float)c[2], (float)c[3],
-                                      (float)c[4], (float)c[5], (float)c[6], (float)c[7]};
-    if (c[7] != 0) return true;
-    for (size_t i = 0; i < sizeof primaries / sizeof *primaries; i++) {
+static void put_primaries(header *h, const wf_picture_out *p) {
+    float own[8];
+    const float *xy = NULL;
+    for (int i = 0; i < 8; i++) own[i] = (float)p->chromaticities[i];
+    if (own[7] != 0) xy = own;
+    for (size_t i = 0; !xy && i < sizeof primaries / sizeof *primaries; i++) {
         const char *begins = primaries[i].space;
-        if (strncmp(p->color_space, begins, strlen(begins))) continue;
-        *xy = primaries[i].xy;
-        return true;
+        if (!strncmp(p->color_space, begins, strlen(begins))) xy = primaries[i].xy;
     }
-    return false;
+    if (xy) put_attribute(h, "chromaticities", "chromaticities", xy, sizeof own);
 }
 
-static bool set_text(exr_context_t exr, const char *name, const char *text) {
-    return !*text || !exr_attr_set_string(exr, 0, name, text);
+static void put_text(header *h, const char *name, const char *text) {
+    if (*text) put_attribute(h, name, "string", text, strlen(text));
 }
 
 /* Ratios that EXR's rationals cannot hold are left out. */
-static bool set_ratio(exr_context_t exr, const char *name, wf_rational r) {
-    const exr_attr_rational_t ratio = {(int32_t)r.num, (uint32_t)r.den};
-    if (r.den <= 0 || r.num > INT32_MAX || r.den > INT32_MAX) return true;
-    return !exr_attr_set_rational(exr, 0, name, &ratio);
+static void put_ratio(header *h, const char *name, wf_rational r) {
+    const int32_t ratio[2] = {(int32_t)r.num, (int32_t)r.den};
+    if (r.den > 0 && r.num <= INT32_MAX && r.den <= INT32_MAX)
+        put_attribute(h, name, "rational", ratio, sizeof ratio);
 }
 
-static bool set_primaries(exr_context_t exr, const wf_picture_out *p) {
-    exr_attr_chromaticities_t xy;
-    return !primaries_of(p, &xy) || !exr_attr_set_chromaticities(exr, 0, "chromaticities", &xy);
-}
-
-static bool set_time(exr_context_t exr, const wf_picture_out *p) {
-    exr_attr_timecode_t time = {0, 0}; /* and no user bits */
-    return !wf_picture_time(p, &time.time_and_flags) ||
-           !exr_attr_set_timecode(exr, 0, "timeCode", &time);
-}
-
-static bool set_field(exr_context_t exr, const wf_picture_out *p) {
-    return !p->field || !exr_attr_set_int(exr, 0, "weft:field", p->field);
-}
-
-/* What the file says of the picture. The date is empty: equal pictures are to be equal files.
- */
-static bool describe(exr_context_t exr, const wf_picture_out *p) {
-    char words[WF_PICTURE_WORDS_SIZE];
-    return set_text(exr, "Software", WF_PICTURE_SOFTWARE) &&
-           !exr_attr_set_string(exr, 0, "capDate", "") &&
-           !exr_attr_set_int(exr, 0, "Orientation", 1) &&
-           set_text(exr, "comments", wf_picture_words(p, words)) &&
-           set_ratio(exr, "framesPerSecond", p->frame_rate) && set_primaries(exr, p) &&
-           set_time(exr, p) && set_text(exr, "weft:raster", p->raster) &&
-           set_text(exr, "weft:colorSpace", p->color_space) && set_field(exr, p) &&
-           set_ratio(exr, "weft:subframeRate", p->subframe_rate) &&
-           set_ratio(exr, "weft:time", p->time_s);
+static void put_time(header *h, const wf_picture_out *p) {
+    uint32_t words[2] = {0, 0}; /* and no user bits */
+    if (wf_picture_time(p, words))
+        put_attribute(h, "timeCode", "timecode", words, sizeof words);
 }
 
 /* In the order of the alphabet, which lines have them in too. */
@@ -126,40 +93,91 @@ static const struct {
 } channels[] = {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}};
 enum { CHANNELS = sizeof channels / sizeof *channels };
 
-static bool put_header(exr_context_t exr, const wf_picture_out *p) {
-    exr_attr_box2i_t window = {.min = {.x = 0, .y = 0},
-                               .max = {.x = p->width_px - 1, .y = p->lines - 1}};
-    exr_attr_v2f_t center = {.x = 0, .y = 0};
-    bool good = !exr_add_part(exr, NULL, EXR_STORAGE_SCANLINE, NULL) &&
-                !exr_initialize_required_attr(
-                    exr, 0, &window, &window, (float)wf_ratio_value(p->pixel_aspect), &center,
-                    1, EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP);
-    for (int c = CHANNELS - p->channels; good && c < CHANNELS; c++)
-        good = !exr_add_channel(exr, 0, channels[c].name, EXR_PIXEL_FLOAT,
-                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-    return good && describe(exr, p) && !exr_write_header(exr);
+static void put_channels(header *h, const wf_picture_out *p) {
+    enum { FLOAT = 2, ENTRY = 2 + 16 }; /* a name of one letter, and what follows it */
+    put_name(h, "channels");
+    put_name(h, "chlist");
+    put_int(h, p->channels * ENTRY + 1);
+    for (int c = CHANNELS - p->channels; c < CHANNELS; c++) {
+        const int32_t about[4] = {FLOAT, 0, 1, 1}; /* not of pLinear; sampling */
+        put_name(h, channels[c].name);
+        put(h, about, sizeof about);
+    }
+    put(h, "", 1);
+}
+
+/* What has to be there. */
+static void put_required(header *h, const wf_picture_out *p) {
+    const int32_t window[4] = {0, 0, p->width_px - 1, p->lines - 1};
+    const uint8_t zip = 3, increasing_y = 0;
+    const float aspect = (float)wf_ratio_value(p->pixel_aspect), one = 1, center[2] = {0, 0};
+    put_channels(h, p);
+    put_attribute(h, "compression", "compression", &zip, 1);
+    put_attribute(h, "dataWindow", "box2i", window, sizeof window);
+    put_attribute(h, "displayWindow", "box2i", window, sizeof window);
+    put_attribute(h, "lineOrder", "lineOrder", &increasing_y, 1);
+    put_attribute(h, "pixelAspectRatio", "float", &aspect, sizeof aspect);
+    put_attribute(h, "screenWindowCenter", "v2f", center, sizeof center);
+    put_attribute(h, "screenWindowWidth", "float", &one, sizeof one);
+}
+
+/* The date is empty: equal pictures are to be equal files. */
+static void put_words(header *h, const wf_picture_out *p) {
+    char words[WF_PICTURE_WORDS_SIZE];
+    const int32_t upright = 1, field = p->field;
+    put_attribute(h, "Orientation", "int", &upright, sizeof upright);
+    put_text(h, "Software", WF_PICTURE_SOFTWARE);
+    put_attribute(h, "capDate", "string", "", 0);
+    put_text(h, "comments", wf_picture_words(p, words));
+    put_ratio(h, "framesPerSecond", p->frame_rate);
+    put_primaries(h, p);
+    put_time(h, p);
+    put_text(h, "weft:colorSpace", p->color_space);
+    if (p->field) put_attribute(h, "weft:field", "int", &field, sizeof field);
+    put_text(h, "weft:raster", p->raster);
+    put_ratio(h, "weft:subframeRate", p->subframe_rate);
+    put_ratio(h, "weft:time", p->time_s);
+}
+
+static void put_header(header *h, const wf_picture_out *p) {
+    const int32_t magic = 20000630, version = 2;
+    h->used = 0;
+    h->full = false;
+    put_int(h, magic);
+    put_int(h, version);
+    put_required(h, p);
+    put_words(h, p);
+    put(h, "", 1);
 }
 
 /* ---- Lines ---- */
 
-/* What chunks are packed with, for as long as a picture takes. */
+/* The packed picture, and what its chunks are packed with. */
 typedef struct packer {
     struct libdeflate_compressor *how;
-    uint8_t *raw, *merged, *packed; /* of one block, a chunk each */
+    uint8_t *raw, *merged; /* one block: a chunk, twice */
+    uint8_t *all;          /* chunks one after another, each with its head */
+    uint64_t *table;       /* [chunks]: where they begin in the file */
+    size_t bytes, chunks;  /* of all */
 } packer;
 
 static bool make_packer(const wf_picture_out *p, packer *k) {
-    size_t chunk = (size_t)p->width_px * (size_t)p->channels * CHUNK_LINES * sizeof(float);
-    *k = (packer){libdeflate_alloc_compressor(DEFLATE_LEVEL), malloc(3 * chunk), NULL, NULL};
-    if (!k->how || !k->raw) return false;
-    k->merged = k->raw + chunk;
-    k->packed = k->merged + chunk;
+    size_t line = (size_t)p->width_px * (size_t)p->channels * sizeof(float);
+    size_t chunks = ((size_t)p->lines + CHUNK_LINES - 1) / CHUNK_LINES;
+    *k = (packer){.how = libdeflate_alloc_compressor(DEFLATE_LEVEL), .chunks = chunks};
+    k->raw = malloc(2 * CHUNK_LINES * line);
+    k->all = malloc((size_t)p->lines * line + chunks * CHUNK_HEAD);
+    k->table = malloc(chunks * sizeof *k->table);
+    if (!k->how || !k->raw || !k->all || !k->table) return false;
+    k->merged = k->raw + CHUNK_LINES * line;
     return true;
 }
 
 static void free_packer(packer *k) {
     if (k->how) libdeflate_free_compressor(k->how);
     free(k->raw);
+    free(k->all);
+    free(k->table);
 }
 
 /* Lines y0 <= y < y1 as they are stored: all of a line's samples of one channel, then of the
@@ -176,40 +194,43 @@ static size_t gather(const wf_picture_out *p, int y0, int y1, uint8_t *to) {
     return (size_t)(at - to);
 }
 
-static bool put_chunks(exr_context_t exr, const wf_picture_out *p, packer *k) {
+/* Packs the picture, whose chunks follow a header of so many bytes and their table. */
+static void pack(const wf_picture_out *p, size_t header_bytes, packer *k) {
+    size_t first = header_bytes + k->chunks * sizeof *k->table;
     for (int y = 0; y < p->lines; y += CHUNK_LINES) {
         int end = y + CHUNK_LINES < p->lines ? y + CHUNK_LINES : p->lines;
         size_t count = gather(p, y, end, k->raw);
-        size_t bytes = wf_exr_zip(k->how, k->raw, count, k->merged, k->packed);
-        if (exr_write_scanline_chunk(exr, 0, y, k->packed, bytes)) return false;
+        uint8_t *to = k->all + k->bytes;
+        size_t bytes = wf_exr_zip(k->how, k->raw, count, k->merged, to + CHUNK_HEAD);
+        memcpy(to, (int32_t[]){y, (int32_t)bytes}, CHUNK_HEAD);
+        k->table[y / CHUNK_LINES] = first + k->bytes;
+        k->bytes += CHUNK_HEAD + bytes;
     }
-    return true;
 }
 
 /* ---- Pictures ---- */
 
-static bool encode(const wf_picture_out *p, packer *k, memory *m) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    exr_context_t exr = NULL;
-    how.user_data = m;
-    how.write_fn = put_bytes;
-    how.error_handler_fn = say_nothing;
-    if (exr_start_write(&exr, "a picture", EXR_WRITE_FILE_DIRECTLY, &how)) return false;
-    bool good = put_header(exr, p) && put_chunks(exr, p, k);
-    return !exr_finish(&exr) && good && !m->out;
+static weft_status put_file(const header *h, const packer *k, wf_bytes_fn *write, void *user,
+                            weft_error *err) {
+    weft_status status = write(user, h->bytes, h->used, err);
+    if (!status) status = write(user, k->table, k->chunks * sizeof *k->table, err);
+    return status ? status : write(user, k->all, k->bytes, err);
 }
 
 weft_status wf_exr_encode(const wf_picture_out *picture, wf_bytes_fn *write, void *user,
                           weft_error *err) {
-    memory m = {.bytes = NULL};
+    header h;
     packer k;
-    bool room = make_packer(picture, &k);
-    bool good = room && encode(picture, &k, &m);
-    weft_status status = good ? write(user, m.bytes, m.used, err)
-                         : !room || m.out
-                             ? wf_fail(err, WEFT_NO_MEMORY, "no memory to encode it as EXR")
-                             : wf_fail(err, WEFT_FAILED, "OpenEXR cannot encode it");
+    weft_status status = WEFT_OK;
+    put_header(&h, picture);
+    if (!make_packer(picture, &k))
+        status = wf_fail(err, WEFT_NO_MEMORY, "no memory to encode it as EXR");
+    else if (h.full)
+        status = wf_fail(err, WEFT_FAILED, "the names of its colors or raster are too long");
+    if (!status) {
+        pack(picture, h.used, &k);
+        status = put_file(&h, &k, write, user, err);
+    }
     free_packer(&k);
-    free(m.bytes);
     return status;
 }

@@ -3,10 +3,11 @@
 
 #include "convert/media/picture_out.h"
 
-/* OpenEXR: float samples (bits 32) in scan lines, ZIP, both windows the picture; alpha is
- * premultiplied. Attributes are those of OpenEXR's ImfStandardAttributes.h, and weft's own:
- * weft:raster, weft:colorSpace, weft:field, weft:subframeRate, weft:time. OpenEXRCore puts the
- * file together, libdeflate packs it. */
+/* OpenEXR (its file layout, version 2): float samples (bits 32) in scan lines, ZIP, both
+ * windows the picture; alpha is premultiplied. Attributes are those of OpenEXR's
+ * ImfStandardAttributes.h, and weft's own: weft:raster, weft:colorSpace, weft:field,
+ * weft:subframeRate, weft:time. Nothing of OpenEXR's library is called, of which 3.1.5 crashes
+ * where memory is out. */
 wf_encode_picture_fn wf_exr_encode;
 
 #endif
