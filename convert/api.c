@@ -1,9 +1,8 @@
 /* The parts of the public interface that only wrap: versions, apertures, rasters. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "convert/base/fail.h"
+#include "convert/job/raster_tell.h"
 #include "filters/aperture/aperture.h"
 #include "filters/raster/raster.h"
 
@@ -32,28 +31,9 @@ weft_status weft_aperture_response(const char *aperture, double tau_fields, doub
     return WEFT_OK;
 }
 
-static void describe_raster(const wf_raster *raster, weft_raster *out) {
-    *out = (weft_raster){
-        .width_px = raster->width_px,
-        .lines = raster->lines,
-        .rate_num = raster->frame_rate.num,
-        .rate_den = raster->frame_rate.den,
-        .interlaced = raster->scan != WF_PROGRESSIVE,
-        .segmented = raster->scan == WF_SEGMENTED,
-        .top_first = raster->top_first,
-        .pixel_aspect_num = raster->pixel_aspect.num,
-        .pixel_aspect_den = raster->pixel_aspect.den,
-        .matrix = wf_matrix_name(raster->matrix),
-        .line1 = raster->line1,
-        .line2 = raster->line2,
-        .total_lines = raster->total_lines,
-    };
-    memcpy(out->name, raster->name, sizeof out->name);
-}
-
 bool weft_raster_at(size_t index, weft_raster *out) {
     const wf_raster *raster = wf_raster_at(index);
-    if (raster) describe_raster(raster, out);
+    if (raster) wf_raster_tell(raster, out);
     return raster != NULL;
 }
 
@@ -62,6 +42,6 @@ weft_status weft_raster_parse(const char *text, weft_raster *out, weft_error *er
     char why[512];
     if (!wf_raster_parse(text, &raster, why, sizeof why))
         return wf_fail(err, WEFT_USAGE, "%s", why);
-    describe_raster(&raster, out);
+    wf_raster_tell(&raster, out);
     return WEFT_OK;
 }

@@ -297,6 +297,43 @@ WEFT_API bool weft_raster_at(size_t index, weft_raster *out);
 /* A raster by name or by description ("180x122@30i,tff"). */
 WEFT_API weft_status weft_raster_parse(const char *text, weft_raster *out, weft_error *err);
 
+/* ---- Finished video, read back ---- */
+
+/* Y4M, raw v210 and uyvy, pictures and sequences of them, and what libav reads, frame by frame.
+ * One thread at a time. */
+typedef struct weft_video weft_video;
+
+typedef struct weft_video_info {
+    size_t size;         /* the caller's to set */
+    const char *format;  /* for people: "Y4M 422p10"; lives as long as the video, as the next */
+    const char *layout;  /* "ycbcr", "rgb", or "linear": scene-linear light */
+    int width_px, lines; /* of the frame */
+    int bits;            /* of a code; 32: floats */
+    int across, down;    /* luma samples to a chroma sample: 1 1, 2 1, 2 2, 4 1 */
+    bool full_range;
+    bool scan_known; /* the file or the user says how it is scanned: raster is no guess */
+    int64_t frames;  /* -1: not known before the end */
+    weft_raster raster;
+} weft_video_info;
+
+/* A frame, both fields woven: signals, and linear light as it is. Planes are
+ * [lines[p]][width_px[p]], borrowed until the next call: R' G' B' and Y' from 0 (black) to 1
+ * (white), Cb and Cr from -1/2 to 1/2, beyond which they may lie; R G B of linear light. */
+typedef struct weft_picture {
+    size_t size;           /* the caller's to set */
+    int64_t index;         /* from 0 */
+    const float *plane[3]; /* NULL past the end of the video; 1 and 2 also of a lone Y */
+    int width_px[3], lines[3];
+} weft_picture;
+
+/* path is a file, a pattern or a directory; raster says what it is where it does not, NULL: as
+ * it says. *out is weft_video_close's. */
+WEFT_API weft_status weft_video_open(const char *path, const char *raster, weft_video **out,
+                                     weft_error *err);
+WEFT_API void weft_video_close(weft_video *video); /* NULL is fine */
+WEFT_API void weft_video_tell(const weft_video *video, weft_video_info *out);
+WEFT_API weft_status weft_video_next(weft_video *video, weft_picture *out, weft_error *err);
+
 #ifdef __cplusplus
 }
 #endif

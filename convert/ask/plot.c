@@ -34,6 +34,7 @@ static weft_status draw(const char *input, const char *output, wf_plot_format fo
 
 weft_status weft_plot(const char *path, const char *output, weft_error *err) {
     wf_plot_format format;
+    if (!path || !*path) return wf_fail(err, WEFT_USAGE, "the name of a plot's file is empty");
     weft_status status = choose_format(output, &format, err);
     return status ? status : draw(path, output, format, err);
 }

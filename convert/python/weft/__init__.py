@@ -1,13 +1,18 @@
 """weft: oversampled progressive renders to interlaced broadcast video, from Python.
 
->>> import weft
->>> report = weft.Job("shot.####.exr", output="shot.y4m", subframe_rate=240).run()
->>> report["frames"]
-48
+>>> import numpy as np, weft
+>>> moving = np.linspace(0, 1, 16)[:, None, None, None] * np.ones((16, 24, 36, 3))
+>>> clip = weft.convert(moving, raster="36x24@30i,tff", subframe_rate=240)
+>>> clip.rgb().shape
+(2, 24, 36, 3)
+>>> weft.measure(clip)["frames"]
+2
 
-`Job` is one run of the program; `Fields` takes samples from a renderer as NumPy arrays and hands
-back finished fields; `apertures`, `aperture_response`, `rasters`, `raster` and `options` tell what
-there is. What goes wrong is a `WeftError`.
+Each command of the program is a function: `convert`, `render`, `trace`, `plan`, `measure`, `verify`,
+`info`, `filters`, `composite`, `plot`, `rasters`. Video comes and goes as files or as NumPy arrays, finished
+video as a `Clip`; `read` makes one of a file. `Job` is one run with its progress and its cancelling; `Fields`
+takes samples from a renderer and hands back finished fields; `apertures`, `aperture_response`, `raster`,
+`profiles` and `options` tell what there is. What goes wrong is a `weft.Error`, with the program's message.
 
 libweft is looked for at $WEFT_LIBRARY, then beside this package in a build or an installation, then
 where the system's loader looks.
@@ -18,11 +23,16 @@ used by one thread at a time; different ones are independent.
 """
 from ._version import VERSION as __version__
 from ._library import library_path
-from .errors import (Canceled, Failed, NoMemory, UsageError, WeftError, WeftWarning)
+from .clip import Clip, read
+from .errors import (Canceled, Error, Failed, NoMemory, UsageError, WeftError, WeftWarning)
 from .fields import Field, Fields
 from .job import Job, Progress
+from .questions import (composite, convert, filters, info, measure, plan, plot, profiles, render, trace,
+                        verify)
+from .report import Report, Reports
 from .tables import (Option, Raster, aperture_response, apertures, options, raster, rasters)
 
-__all__ = ["Canceled", "Failed", "Field", "Fields", "Job", "NoMemory", "Option", "Progress", "Raster",
-           "UsageError", "WeftError", "WeftWarning", "aperture_response", "apertures",
-           "library_path", "options", "raster", "rasters"]
+__all__ = ["Canceled", "Clip", "Error", "Failed", "Field", "Fields", "Job", "NoMemory", "Option", "Progress",
+           "Raster", "Report", "Reports", "UsageError", "WeftError", "WeftWarning", "aperture_response",
+           "apertures", "composite", "convert", "filters", "info", "library_path", "measure", "options",
+           "plan", "plot", "profiles", "raster", "rasters", "read", "render", "trace", "verify"]

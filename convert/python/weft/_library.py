@@ -67,10 +67,23 @@ Verify = _asked("profile", "raster")
 Filters = _asked("name", "input_lines", "plot", "frontier")
 Composite = _asked("system", "encoder", "decoder", "raster", "audio")
 
+class VideoInfo(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("format", c_char_p), ("layout", c_char_p), ("width_px", c_int),
+                ("lines", c_int), ("bits", c_int), ("across", c_int), ("down", c_int),
+                ("full_range", c_bool), ("scan_known", c_bool), ("frames", c_int64),
+                ("raster", RasterStruct)]
+
+
+class Picture(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("index", c_int64), ("plane", FLOATS * 3),
+                ("width_px", c_int * 3), ("lines", c_int * 3)]
+
+
 STRUCTURES = {"weft_error": Error, "weft_progress": ProgressStruct, "weft_samples": Samples,
               "weft_tile": Tile, "weft_field": FieldStruct, "weft_option": OptionStruct,
               "weft_raster": RasterStruct, "weft_profile": ProfileStruct, "weft_measure": Measure,
-              "weft_verify": Verify, "weft_filters": Filters, "weft_composite": Composite}
+              "weft_verify": Verify, "weft_filters": Filters, "weft_composite": Composite,
+              "weft_video_info": VideoInfo, "weft_picture": Picture}
 
 # ---- Functions ----
 
@@ -113,6 +126,10 @@ FUNCTIONS = {
     "weft_aperture_name": (c_char_p, c_size_t),
     "weft_aperture_response": (_STATUS, c_char_p, c_double, c_double, c_double, c_double,
                                POINTER(c_double), _ERROR),
+    "weft_video_open": (_STATUS, c_char_p, c_char_p, POINTER(_HANDLE), _ERROR),
+    "weft_video_close": (None, _HANDLE),
+    "weft_video_tell": (None, _HANDLE, POINTER(VideoInfo)),
+    "weft_video_next": (_STATUS, _HANDLE, POINTER(Picture), _ERROR),
     "weft_raster_at": (c_bool, c_size_t, POINTER(RasterStruct)),
     "weft_raster_parse": (_STATUS, c_char_p, POINTER(RasterStruct), _ERROR),
 }

@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import ctypes
+from typing import Any
 
-from ._library import Error
+from ._library import Error as _ErrorStruct
 
 OK, FAILED, USAGE, DEGRADED, NO_MEMORY, INTERRUPTED = range(6)
 
@@ -15,6 +16,11 @@ class WeftError(Exception):
     """
 
     status = FAILED
+    #: of calls that ask about files, what was found all the same; else None
+    report: Any = None
+
+
+Error = WeftError
 
 
 class Failed(WeftError):
@@ -46,7 +52,7 @@ class WeftWarning(UserWarning):
 _KINDS = {kind.status: kind for kind in (Failed, UsageError, NoMemory, Canceled)}
 
 
-def check(status: int, error: Error) -> int:
+def check(status: int, error: _ErrorStruct) -> int:
     """Raises what a status that is a failure stands for; returns OK or DEGRADED."""
     if status in (OK, DEGRADED):
         return status
@@ -56,5 +62,5 @@ def check(status: int, error: Error) -> int:
 
 def call(function, *arguments) -> int:
     """Calls a function of libweft that returns a weft_status and takes a weft_error last."""
-    error = Error()
+    error = _ErrorStruct()
     return check(function(*arguments, ctypes.byref(error)), error)

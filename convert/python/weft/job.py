@@ -14,7 +14,7 @@ from typing import Any, Optional, Union
 
 from ._interrupt import CancelOnInterrupt
 from ._library import PRINT_FN, PROGRESS_FN, WARNING_FN, lib
-from .errors import DEGRADED, Canceled, NoMemory, UsageError, WeftWarning, call
+from .errors import DEGRADED, INTERRUPTED, Canceled, NoMemory, UsageError, WeftWarning, call
 from .tables import Option, Raster, options, raster
 
 Path = Union[str, "os.PathLike[str]"]
@@ -53,7 +53,7 @@ class Calls:
             raise raised
 
 
-def _option_text(option: Optional[Option], value: Any) -> Optional[str]:
+def option_text(option: Optional[Option], value: Any) -> Optional[str]:
     """A value as the command line would write it; None for a flag that is set."""
     if isinstance(value, bool):
         if option is not None and option.takes is not None:
@@ -66,7 +66,7 @@ def _option_text(option: Optional[Option], value: Any) -> Optional[str]:
     if isinstance(value, Fraction):
         return f"{value.numerator}/{value.denominator}"
     if isinstance(value, (list, tuple)):
-        return ",".join(_option_text(option, part) or "" for part in value)
+        return ",".join(option_text(option, part) or "" for part in value)
     return str(value)
 
 
@@ -177,11 +177,11 @@ class Job:
             return
         if isinstance(value, Mapping):
             for key, one in value.items():
-                self.set(name, f"{key}={_option_text(None, one)}")
+                self.set(name, f"{key}={option_text(None, one)}")
             return
         name = name.rstrip("_").replace("_", "-")
         option = next((o for o in options() if o.name == name), None)
-        text = _option_text(option, value)
+        text = option_text(option, value)
         if text is None and value is False:
             return
         call(lib.weft_job_set, self._idle(), os.fsencode(name),
@@ -213,25 +213,32 @@ class Job:
         name that was not there before; so is Canceled. Ctrl-C ends the run soon and leaves as
         KeyboardInterrupt. A job that was canceled does not run again.
         """
+        self.degraded = self.work(lib.weft_job_run) == DEGRADED
+        return self.report
+
+    def work(self, function: Any, *arguments: Any) -> int:
+        """Calls a function of libweft that works for long, with the job; what run() says of failures,
+        functions that raise and Ctrl-C holds."""
         handle = self._idle()
         self._busy, self.degraded = True, False
         interrupt = CancelOnInterrupt(handle)
         try:
             with interrupt:
-                self.degraded = call(lib.weft_job_run, handle) == DEGRADED
+                status = call(function, handle, *arguments)
         except Canceled:
             # By a function that raised, or by Ctrl-C, which Python may have told to one already.
             if self._calls.raised is None:
                 if interrupt.came:
                     raise KeyboardInterrupt from None
                 raise
+            status = INTERRUPTED
         except BaseException:
             self._calls.raised = None
             raise
         finally:
             self._busy = False
         self._calls.release()
-        return self.report
+        return status
 
     def plan(self, format: str = "json") -> Any:
         """What a renderer has to make for these options, before there is any of it: `weft plan`.
