@@ -131,6 +131,12 @@ static void add_met(const wf_met *from, int k, wf_met *to) {
     to->ray[to->count++] = from->ray[k];
 }
 
+/* Asks memory for a leaf before it is looked at. */
+static void ask_for(const wf_leaf *leaf) {
+    __builtin_prefetch(leaf);
+    __builtin_prefetch((const char *)leaf + 64);
+}
+
 /* What was met of parts and solids that are like no other: one by one. Leaves the rest. */
 static bool try_others(seeker *q, wf_met *met) {
     wf_met one;
@@ -138,6 +144,7 @@ static bool try_others(seeker *q, wf_met *met) {
     met->count = 0;
     for (int k = 0; k < count; k++) {
         int item = ~met->item[k];
+        ask_for(&q->grove->leaves[item]);
         one.count = 0;
         add_met(met, k, q->grove->kinds[item] < WF_SOLID_KINDS ? met : &one);
         if (!one.count) continue;
