@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "tracer/sample/adaptive_lines.h"
+#include "tracer/sample/adaptive_packets.h"
 #include "tracer/sample/adaptive_points.h"
 #include "tracer/sample/adaptive_sides.h"
 

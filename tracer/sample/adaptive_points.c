@@ -4,12 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tracer/sample/adaptive_packets.h"
+
 /* ---- Memory ---- */
 
 #define COLUMNS 8
-
-/* Cells to the right that may share a packet. */
-#define NEAR_CELLS 3
 
 /* All arrays of floats of samples. */
 static void find_columns(wf_adaptive_samples *k, float **column[COLUMNS]) {
@@ -90,61 +89,11 @@ static bool draw(wf_adaptive *a, int at, int quarter, int from, int count) {
     return true;
 }
 
-/* Samples first <= n < first + count, which are as late as each other. */
-static bool trace(const wf_adaptive *a, wf_adaptive_samples *k, double late, size_t first,
-                  size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        a->c->trace_x[i] = (double)k->x[first + i];
-        a->c->trace_y[i] = (double)k->y[first + i];
-        a->c->trace_f[i] = wf_window_fraction(a->s, (double)k->t[first + i], late,
-                                              (double)k->fraction[first + i]);
-    }
-    const wf_trace_samples traced = {
-        .count = count,
-        .x = a->c->trace_x,
-        .y = a->c->trace_y,
-        .f = a->c->trace_f,
-        .late_s = a->s->periods ? 0 : late * wf_ratio_value(wf_sampling_period(a->s)),
-        .rgb = {k->rgb[0] + first, k->rgb[1] + first, k->rgb[2] + first}};
-    return wf_trace(a->s->tracer, a->c->trace, &traced);
-}
-
-static double late_of(const wf_adaptive *a, const wf_adaptive_samples *k, size_t sample) {
-    return a->time[k->cell[sample] / WF_QUARTERS / GRID_WIDTH].late;
-}
-
 /* Where the samples end that are of the same cell as the first. */
 static size_t end_of_cell(const wf_adaptive_samples *k, size_t first) {
     size_t end = first + 1;
     while (end < k->count && k->cell[end] / WF_QUARTERS == k->cell[first] / WF_QUARTERS) end++;
     return end;
-}
-
-/* Whether two cells of the grid are of one row and not far apart. */
-static bool are_near(int at, int next) {
-    return at / GRID_WIDTH == next / GRID_WIDTH && next - at <= NEAR_CELLS;
-}
-
-/* Where a packet ends, or many: cells that fit into one together, or all of one cell's samples.
- * A packet that spans the fewest cells meets the fewest solids. */
-static size_t end_of_packet(const wf_adaptive *a, const wf_adaptive_samples *k, size_t first) {
-    size_t end = end_of_cell(k, first);
-    if (end - first > a->c->capacity) return first + a->c->capacity;
-    while (end < k->count && (end - first) % WF_TRACE_PACKET) {
-        size_t next = end_of_cell(k, end);
-        if ((end - first) % WF_TRACE_PACKET + (next - end) > WF_TRACE_PACKET) break;
-        if (!are_near(k->cell[end - 1] / WF_QUARTERS, k->cell[end] / WF_QUARTERS)) break;
-        end = next;
-    }
-    return end;
-}
-
-bool wf_points_trace(const wf_adaptive *a, wf_adaptive_samples *k, size_t first) {
-    for (size_t end; first < k->count; first = end) {
-        end = end_of_packet(a, k, first);
-        if (!trace(a, k, late_of(a, k, first), first, end - first)) return false;
-    }
-    return true;
 }
 
 /* What the edge of a sample's cell says of its light. */

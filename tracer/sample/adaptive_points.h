@@ -34,9 +34,6 @@ static inline double wf_points_share_error(double points) {
 size_t wf_points_place(const wf_adaptive *a, wf_adaptive_samples *to, int at,
                        const double p[3]);
 
-/* Finds the light of all samples from the first on. False: no memory. */
-bool wf_points_trace(const wf_adaptive *a, wf_adaptive_samples *samples, size_t first);
-
 /* So many places in a cell that lie evenly, in x, y and time; [3][count or more]. */
 void wf_points_even(const wf_adaptive *a, int at, int count, float *const places[3]);
 

@@ -5,6 +5,7 @@
 
 #include "tracer/sample/adaptive.h"
 #include "tracer/sample/adaptive_edges.h"
+#include "tracer/sample/adaptive_packets.h"
 #include "tracer/sample/adaptive_points.h"
 #include "tracer/sample/fixed.h"
 #include "tracer/sample/row_time.h"
@@ -84,6 +85,7 @@ void wf_sampling_scratch_free(wf_sampling_scratch *c) {
     wf_points_free(&c->kept);
     wf_points_free(&c->probes);
     wf_edges_free(&c->edges);
+    wf_packet_order_free(&c->order);
     free(c);
 }
 

@@ -48,6 +48,13 @@ typedef struct wf_edge_scratch {
     size_t seen_capacity;
 } wf_edge_scratch;
 
+/* In which order samples are traced; kept from round to round. */
+typedef struct wf_packet_order {
+    uint32_t *sample; /* numbers of samples, [capacity] */
+    uint16_t *half;   /* of half cells in which they lie, [capacity] */
+    size_t capacity;
+} wf_packet_order;
+
 struct wf_sampling_scratch {
     wf_trace_scratch *trace;
     size_t capacity; /* samples */
@@ -55,6 +62,7 @@ struct wf_sampling_scratch {
     double *trace_x, *trace_y, *trace_f;
     wf_adaptive_samples kept, probes;
     wf_edge_scratch edges;
+    wf_packet_order order;
     wf_error_sum error;
 };
 
