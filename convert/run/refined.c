@@ -113,28 +113,60 @@ static wf_rational middle(wf_rational a, wf_rational b) {
     return wf_ratio_mul(wf_ratio_sum(a, b), wf_ratio(1, 2));
 }
 
-/* How many edges there can be: files, and pairs of which no whole one lies between. */
-static size_t most_edges(const wf_refined *r) {
-    size_t most = r->files + 2, last_whole = 0;
-    for (size_t i = 1; r->center && i < r->files; i++) {
-        most += i - last_whole;
-        if (r->file[i].whole) last_whole = i;
-    }
-    return most;
-}
-
 static int by_value(const void *a, const void *b) {
     return wf_number_order(*(const wf_rational *)a, *(const wf_rational *)b);
 }
 
-/* Where cells end between files i and j that follow each other at some pixel. */
-static size_t add_middles(const wf_refined *r, size_t count) {
-    for (size_t i = 0; i < r->files; i++)
-        for (size_t j = i + 1; j < r->files; j++) {
-            r->edge_s[count++] = middle(r->file[i].time_s, r->file[j].time_s);
-            if (r->file[j].whole) break;
+static weft_status refuse_layers(const wf_refined_file *file, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED,
+                   "%s: more than %d subframes with a weft:region and no whole one among them; "
+                   "render a whole one now and then",
+                   file->ref.path, WF_REFINED_LAYERS);
+}
+
+/* Files before some other that one of a pixel of that may follow: none that is later hides
+ * them. */
+typedef struct open_files {
+    const wf_refined_file *file[WF_REFINED_LAYERS];
+    int count;
+} open_files;
+
+static bool hides(const wf_refined_file *later, const wf_refined_file *file) {
+    return later->whole || (!file->whole && wf_box_contains(later->region, file->region));
+}
+
+static bool meet(const wf_refined_file *a, const wf_refined_file *b) {
+    if (a->whole || b->whole) return true;
+    wf_box both = wf_box_overlap(a->region, b->region);
+    return both.x0 < both.x1 && both.y0 < both.y1;
+}
+
+/* Where cells end between a file and those before it that it follows at some pixel; NULL edges
+ * are counted only. */
+static size_t follow(open_files *open, const wf_refined_file *file, wf_rational *edges) {
+    size_t count = 0;
+    int kept = 0;
+    for (int i = 0; i < open->count; i++) {
+        const wf_refined_file *before = open->file[i];
+        if (meet(before, file)) {
+            if (edges) edges[count] = middle(before->time_s, file->time_s);
+            count++;
         }
+        if (!hides(file, before)) open->file[kept++] = before;
+    }
+    open->count = kept;
     return count;
+}
+
+/* All of these, to r->edge_s + *count on if there is any. */
+static weft_status add_middles(const wf_refined *r, size_t *count, weft_error *err) {
+    open_files open = {.count = 0};
+    for (size_t i = 0; i < r->files; i++) {
+        *count += follow(&open, &r->file[i], r->edge_s ? r->edge_s + *count : NULL);
+        if (open.count == WF_REFINED_LAYERS) return refuse_layers(&r->file[i], err);
+        open.file[open.count++] = &r->file[i];
+    }
+    return WEFT_OK;
 }
 
 static size_t without_repeats(wf_rational *edges, size_t count) {
@@ -147,7 +179,7 @@ static size_t without_repeats(wf_rational *edges, size_t count) {
 
 /* The last picture lasts as long as the one before. With output frames that do not begin with 0
  * time does, and the first picture stands for what is before it. */
-static void set_edges(wf_refined *r, bool from_zero) {
+static weft_status set_edges(wf_refined *r, bool from_zero, weft_error *err) {
     const wf_refined_file *f = r->file, *last = f + r->files - 1;
     wf_rational ends = wf_ratio_difference(last->time_s, last[-1].time_s);
     size_t count = 0;
@@ -156,7 +188,8 @@ static void set_edges(wf_refined *r, bool from_zero) {
         wf_rational half =
             wf_ratio_mul(wf_ratio_difference(f[1].time_s, f[0].time_s), wf_ratio(1, 2));
         r->edge_s[count++] = wf_ratio_difference(f[0].time_s, half);
-        count = add_middles(r, count);
+        weft_status status = add_middles(r, &count, err);
+        if (status) return status;
         ends = wf_ratio_mul(ends, wf_ratio(1, 2));
     } else {
         for (size_t i = 0; i < r->files; i++) r->edge_s[count++] = f[i].time_s;
@@ -165,6 +198,7 @@ static void set_edges(wf_refined *r, bool from_zero) {
     r->units = without_repeats(r->edge_s, count) - 1;
     r->begin_s = from_zero ? wf_ratio(0, 1) : f[0].time_s;
     if (from_zero && wf_number_order(r->edge_s[0], r->begin_s) > 0) r->edge_s[0] = r->begin_s;
+    return WEFT_OK;
 }
 
 static void set_latest(wf_refined *r) {
@@ -177,11 +211,14 @@ static void set_latest(wf_refined *r) {
 }
 
 static weft_status make_spans(const weft_job *job, wf_refined *r, weft_error *err) {
-    size_t most = most_edges(r);
+    size_t most = r->files + 2;
+    weft_status status = r->center ? add_middles(r, &most, err) : WEFT_OK;
+    if (status) return status;
     r->edge_s = calloc(most, sizeof *r->edge_s);
     r->latest = calloc(most, sizeof *r->latest);
     if (!r->edge_s || !r->latest) return no_memory(err);
-    set_edges(r, job->output_first > 0);
+    status = set_edges(r, job->output_first > 0, err);
+    if (status) return status;
     for (size_t u = 0; u <= r->units; u++)
         if (!wf_ratio_given(r->edge_s[u]))
             return wf_fail(err, WEFT_FAILED,
@@ -298,8 +335,5 @@ weft_status wf_refined_stack(const wf_refined *r, size_t unit,
     }
     *count = s.count;
     if (room) return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED,
-                   "%s: more than %d subframes with a weft:region and no whole one among them; "
-                   "render a whole one now and then",
-                   first[r->latest[unit]].ref.path, WF_REFINED_LAYERS);
+    return refuse_layers(&first[r->latest[unit]], err);
 }
