@@ -209,6 +209,11 @@ weft_status wf_plan_make(const weft_job *job, wf_plan *plan, weft_error *err) {
                       .shown_rate = job->subframe_rate};
     weft_status status = wf_job_check_time(job, err);
     if (status) return status;
+    if (wf_ratio_given(job->error) && !job->refine)
+        return wf_fail(
+            err, WEFT_USAGE,
+            "--error: a plan has no error before anything is rendered; give --refine "
+            "DIR too, the folder that subframes are rendered into, which may be empty");
     wf_job_settle(&plan->job);
     status = settle_rate(plan, err);
     if (!status) status = settle_frames(plan, err);

@@ -13,6 +13,10 @@
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 
+static weft_status check_cancelled(const wf_plan *plan, weft_error *err) {
+    return plan->asked->cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted") : WEFT_OK;
+}
+
 static wf_box whole_of(const wf_plan *plan) {
     return (wf_box){0, 0, plan->width_px, plan->lines};
 }
@@ -56,11 +60,15 @@ static weft_status check_size(const wf_plan *plan, const char *path, weft_error 
     int width = display.x1 - display.x0, lines = display.y1 - display.y0;
     wf_subframe_close(picture);
     if (width == plan->width_px && lines == plan->lines) return WEFT_OK;
-    return wf_fail(
-        err, WEFT_FAILED,
-        "%s: it is %dx%d, and subframes of this plan are %dx%d; give --size %dx%d, or "
-        "render it again",
-        path, width, lines, plan->width_px, plan->lines, width, lines);
+    int whole = plan->job.raster.lines;
+    bool can_be = lines % (whole % 2 ? whole : whole / 2) == 0;
+    return wf_fail(err, WEFT_FAILED,
+                   can_be
+                       ? "%s: it is %dx%d, and subframes of this plan are %dx%d; give --size "
+                         "%dx%d, or render it again"
+                       : "%s: it is %dx%d, and subframes of this plan are %dx%d; render it "
+                         "again, or give the folder of this plan's",
+                   path, width, lines, plan->width_px, plan->lines, width, lines);
 }
 
 /* Whether a file's weft:time, where it has one, is that of its number in the plan. */
@@ -99,12 +107,18 @@ static weft_status take_file(const wf_plan *plan, wf_refine_slot *slot,
     return WEFT_OK;
 }
 
+/* A file alone whose name has no number is counted as 0. */
+static bool is_numbered(const wf_subframe_ref *ref) {
+    wf_numbered unused;
+    return wf_name_number_of(wf_base_name(ref->path), 0, &unused);
+}
+
 /* Files that are of other frames of the same shot say so by their times. */
 static weft_status refuse_foreign(const wf_plan *plan, const wf_sequence *found,
                                   weft_error *err) {
     bool has_time, fits;
     weft_status status = is_of_plan(plan, &found->refs[0], &has_time, &fits, err);
-    if (status || (has_time && fits)) return status;
+    if (status || (has_time && fits && is_numbered(&found->refs[0]))) return status;
     return wf_fail(
         err, WEFT_FAILED,
         "--refine %.500s: none of its files has a number of this plan, which are %" PRId64
@@ -121,9 +135,11 @@ static weft_status take_files(wf_refining *r, const wf_sequence *found, weft_err
         const wf_subframe_ref *ref = &found->refs[k];
         while (slot < r->slots && r->slot[slot].number < ref->number.num) slot++;
         if (slot == r->slots) break;
-        if (!ref->path || ref->number.den != 1 || r->slot[slot].number != ref->number.num)
+        if (!ref->path || ref->number.den != 1 || r->slot[slot].number != ref->number.num ||
+            !is_numbered(ref))
             continue;
-        status = take_file(r->plan, &r->slot[slot], ref, err);
+        status = check_cancelled(r->plan, err);
+        if (!status) status = take_file(r->plan, &r->slot[slot], ref, err);
         taken++;
     }
     return status || taken ? status : refuse_foreign(r->plan, found, err);
@@ -159,7 +175,7 @@ static size_t slot_of(const wf_refining *r, int64_t number) {
  * before anything can be said of those between. What moves alike in every field, as spokes do,
  * is seen by none of the first ones: two of a field see it. Every few fields have two, and what
  * moves in these is taken to move in those between. */
-enum { FIELDS_FOR_TWO = 4 };
+enum { FIELDS_FOR_TWO = 8 };
 
 static bool has_two(const wf_plan *plan, int64_t field) {
     return (field - plan->first_field) % FIELDS_FOR_TWO == 0 || field == plan->end_field - 1;
@@ -199,9 +215,10 @@ static void look_between(wf_refining *r, int64_t field) {
 static weft_status refine_fields(wf_refining *r, weft_error *err) {
     const wf_plan *plan = r->plan;
     weft_status status = WEFT_OK;
-    for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
-        status = plan->asked->cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted")
-                                        : refine_field(r, n, err);
+    for (int64_t n = plan->first_field; !status && n < plan->end_field; n++) {
+        status = check_cancelled(plan, err);
+        if (!status) status = refine_field(r, n, err);
+    }
     for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)
         if (!has_two(plan, n)) look_between(r, n);
     return status;

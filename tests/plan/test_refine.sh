@@ -36,8 +36,10 @@ fi
 plan() { weft plan --raster 96x64@30i,tff --frames 0-1 --subframe-rate 480 --refine "$@"; }
 mkdir empty foreign other half
 check "an empty one wants the first pass" exits 0 plan empty --error 0.01 --format json
-check "a whole one a field, and two in every fourth" value \
+check "a whole one a field, and two in the first and the last" value \
     "[s['number'] for s in d['subframes']] == [0, 3, 8, 16, 24, 27] and d['subframes'][0]['region'] == [0, 0, 96, 64]"
+check "of more fields" exits 0 weft plan --raster 96x64@30i,tff --frames 0-8 --subframe-rate 480 --refine empty --error 0.01 --format json
+check "in every eighth" value "[s['number'] for s in d['subframes'] if s['number'] % 8] == [3, 67, 131, 139]"
 check "without an error" refuses "--error 0.005" plan --raster 96x64@30i,tff --frames 0-1 --subframe-rate 480 --refine empty
 check "none there" fails "may be empty" plan nowhere --error 0.01
 weft trace "$WEFT_SOURCE/examples/scenes/one_mover.lua" --raster 96x64@30i,tff --oversample 1x1x8 --frames 0-1 \
@@ -45,6 +47,13 @@ weft trace "$WEFT_SOURCE/examples/scenes/one_mover.lua" --raster 96x64@30i,tff -
 check "of another size" fails "is 96x64, and subframes of this plan are 192x64; give --size 96x64" \
     plan other --error 0.01 --size 192x64
 for k in 0 8; do cp other/shot.000$k.exr foreign/shot.9$k.exr; done
+mkdir lone
+cp other/shot.0000.exr lone/beauty.exr
+check "a picture without a number" fails "none of its files has a number of this plan" plan lone --error 0.01
+check "of a size that no plan has" fails "shot.0000.exr: it is 96x64, and subframes of this plan are 96x60; render it again, or" \
+    "$WEFT" plan --raster 96x60@30i,tff --frames 0-1 --subframe-rate 480 --refine other --error 0.01
+check "a file in the place of a folder" fails "Not a directory; give the folder that the subframes are rendered into" plan said --error 0.01
+check "an error without a folder" refuses "give --refine DIR too" plan --raster 96x64@30i,tff --frames 0-1 --subframe-rate 480 --error 0.01
 check "of other numbers" fails "none of" plan foreign --error 0.01
 cp other/shot.0000.exr other/shot.0003.exr half
 head -c 3000 other/shot.0008.exr >half/shot.0008.exr

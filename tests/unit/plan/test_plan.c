@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cmocka.h>
 #include <jansson.h>
@@ -233,12 +234,40 @@ static void what_will_not_do(void **state) {
     refused("raster=8x12@25i subframe-rate=1000000 frames=0-0 temporal-width=64", "room for");
 }
 
+/* Cancelled before it began: while files are looked at, of which the second is damaged, and,
+ * where there are none, while fields are. */
+static void refining_can_be_stopped(void **state) {
+    (void)state;
+    static const char looks[] =
+        "raster=8x12@25i,tff subframe-rate=100 frames=0-3 error=0.01 refine=";
+    char path[512], options[1024];
+    const char *text;
+    job_path(path, "stopped");
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(options, sizeof options, "%s%s", looks, path);
+    for (int files = 0; files < 2; files++) {
+        weft_error err = {""};
+        weft_job *job = weft_job_new();
+        if (job_set(job, options, &err)) fail_msg("%s", err.text);
+        weft_job_cancel(job);
+        assert_int_equal(weft_job_plan(job, "json", &text, &err), WEFT_INTERRUPTED);
+        assert_null(text);
+        weft_job_free(job);
+        for (int k = 0; k < 2; k++) {
+            FILE *file;
+            job_path(path, k ? "stopped/in.0002.exr" : "stopped/in.0000.exr");
+            assert_non_null(file = fopen(path, "wb"));
+            fputs("no picture", file);
+            fclose(file);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planned_alone_are_enough),
-        cmocka_unit_test(how_many_of_eight),
-        cmocka_unit_test(sizes_and_regions),
-        cmocka_unit_test(what_will_not_do),
+        cmocka_unit_test(planned_alone_are_enough), cmocka_unit_test(how_many_of_eight),
+        cmocka_unit_test(sizes_and_regions),        cmocka_unit_test(what_will_not_do),
+        cmocka_unit_test(refining_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);
 }
