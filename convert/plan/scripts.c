@@ -38,36 +38,32 @@ static void put_constants(const wf_plan *plan, FILE *to) {
 
 /* ---- Blender ---- */
 
+/* How a scene is made ready, and put back: the add-on's own lines. */
+static const char blender_scene[] =
+#include "convert/plan/blender_scene.inc"
+    ;
+
 static const char blender_render[] =
     "\n"
     "\n"
     "def render(folder):\n"
     "    scene = bpy.context.scene\n"
     "    settings = scene.render\n"
-    "    fps = Fraction(FPS) if FPS else Fraction(settings.fps) / Fraction(settings.fps_base)\n"
-    "    settings.resolution_x, settings.resolution_y = SIZE\n"
-    "    settings.resolution_percentage = 100\n"
-    "    least = min(PIXEL_ASPECT)\n"
-    "    settings.pixel_aspect_x = PIXEL_ASPECT[0] / least\n"
-    "    settings.pixel_aspect_y = PIXEL_ASPECT[1] / least\n"
-    "    settings.use_motion_blur = False\n"
-    "    settings.image_settings.file_format = 'OPEN_EXR'\n"
-    "    settings.use_border, settings.use_crop_to_border = True, False\n"
-    "    if SAMPLES and settings.engine == 'CYCLES':\n"
-    "        scene.cycles.samples = SAMPLES\n"
-    "    for number, seconds, (x0, y0, x1, y1) in SUBFRAMES:\n"
-    "        path = os.path.join(folder, f'shot.{number:04d}.exr')\n"
-    "        if os.path.exists(path) and (x0, y0, x1, y1) == (0, 0) + SIZE:\n"
-    "            continue\n"
-    "        frame = scene.frame_start + Fraction(seconds) * fps\n"
-    "        scene.frame_set(frame.numerator // frame.denominator, subframe=float(frame % 1))\n"
-    "        settings.border_min_x, settings.border_max_x = x0 / SIZE[0], x1 / SIZE[0]\n"
-    "        settings.border_min_y, settings.border_max_y = 1 - y1 / SIZE[1], 1 - y0 / "
-    "SIZE[1]\n"
-    "        settings.filepath = path + '.part'\n"
-    "        settings.use_file_extension = False\n"
-    "        bpy.ops.render.render(write_still=True)\n"
-    "        os.replace(path + '.part', path)\n"
+    "    fps = Fraction(FPS) if FPS else Fraction(settings.fps) / "
+    "Fraction(settings.fps_base).limit_denominator(1001)\n"
+    "    plan = {'size': SIZE, 'pixel_aspect': PIXEL_ASPECT}\n"
+    "    os.makedirs(folder, exist_ok=True)\n"
+    "    with prepared(scene, plan, settings.film_transparent, SAMPLES or 0):\n"
+    "        for number, seconds, _ in SUBFRAMES:\n"
+    "            path = os.path.join(folder, f'shot.{number:04d}.exr')\n"
+    "            if os.path.exists(path):\n"
+    "                continue\n"
+    "            frame = scene.frame_start + Fraction(seconds) * fps\n"
+    "            scene.frame_set(frame.numerator // frame.denominator, subframe=float(frame % "
+    "1))\n"
+    "            settings.filepath = path + '.part'\n"
+    "            bpy.ops.render.render(write_still=True)\n"
+    "            os.replace(path + '.part', path)\n"
     "\n"
     "\n"
     "if __name__ == '__main__':\n"
@@ -80,6 +76,8 @@ void wf_plan_for_blender(const wf_plan *plan, FILE *to) {
           to);
     put_constants(plan, to);
     put_rows(plan, to);
+    fputs("\n", to);
+    fputs(blender_scene, to);
     fputs(blender_render, to);
 }
 

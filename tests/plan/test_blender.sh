@@ -39,6 +39,16 @@ all_of.convert(plan)"
 check "twice as many" test 24 = "$(ls every/*.exr | wc -l)"
 check "the same video" cmp shot.y4m every.y4m
 
+# The script that a plan makes sets what the add-on does.
+check "a script" exits 0 weft plan --raster 96x64@25i,tff --temporal-width 1/2 --subframe-rate 200 --frames 0-2 \
+    --samples-a-pixel 4 --format blender -q
+cp out scripted.py
+check "renders" exits 0 blender -b shot.blend --python-exit-code 9 -P scripted.py -- scripted
+by_hand() { weft convert "$1" --raster 96x64@25i,tff --subframe-rate 200 --output-frames 0-2 -q -o "$1.hand.y4m"; }
+check "video of it" by_hand scripted
+check "video of the add-on's" by_hand subframes
+check "is the same" cmp scripted.hand.y4m subframes.hand.y4m
+
 check "the last frame alone" blend "v.run($small, folder='//part', output='//part.y4m', first=2, last=2)"
 check "it is the third of all" python3 - <<'END'
 whole, part = (open(name, "rb").read().split(b"FRAME\n") for name in ("shot.y4m", "part.y4m"))

@@ -79,11 +79,11 @@ check "are as good" value "d['difference']['rmse'] < 0.003"
 # Of samples each subframe gets its share; of noise its own, unless it is refined.
 check "samples" blend "
 s.cycles.samples = 256
-for error, samples, moves in (0, 4, True), (0.005, 64, False):
+for error, samples, moves in (0, 16, True), (0.005, 64, False):
     for name, value in {**dict($small), 'error': error, 'divide_samples': True, 'oversampling': 2}.items():
         setattr(s.interlaced_video, name, value)
     of = shot.Shot(s, s.interlaced_video, program.find())
-    with of.prepared({'size': [96, 64], 'pixel_aspect': [1, 1]}):
+    with of.prepared(of.plan()):
         assert (s.cycles.samples, s.cycles.use_animated_seed) == (samples, moves), (s.cycles.samples, error)
 assert s.cycles.samples == 256 and not s.cycles.use_animated_seed"
 

@@ -36,7 +36,7 @@ class InterlacedVideo(bpy.types.PropertyGroup):
         name="Oversampling", default=2, min=1, max=4, description="Rendered pixels and lines a pixel of the raster")
     divide_samples: bpy.props.BoolProperty(
         name="Divide samples", default=True, description="Gives each subframe its share of the scene's samples, so "
-        "that a frame of video costs what a finished frame does. With an error only pixels share: what stands still "
+        "that a field has the noise of a finished frame and costs what it does. With an error only pixels share: what stands still "
         "is seen by one subframe alone")
     alpha: bpy.props.BoolProperty(
         name="Alpha", default=False, description="Renders the film transparent and keeps alpha, for outputs that "

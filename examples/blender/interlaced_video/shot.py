@@ -81,7 +81,7 @@ class Shot:
         s = self.settings
         return program.asked(self.weft, "plan", "--raster", s.raster, "--aperture", s.aperture, "--temporal-width",
                              s.shutter, "--subframe-rate", self.subframe_rate, "--frames", f"{first}-{last}",
-                             "--format", "json", *more)
+                             "--samples-a-pixel", max(1, self.finished_samples()), "--format", "json", *more)
 
     def plan(self):
         """What weft needs: numbers, times, size."""
@@ -205,19 +205,22 @@ class Shot:
         program.run(self.weft, "convert", "--job", self.write_job(plan), "-q")
         return self.output
 
-    def samples(self):
-        """Samples a pixel of each subframe: the scene's own, divided by the subframes of a frame and by the
-        pixels that one of a finished frame becomes, so that the whole costs what one frame does. Where it is
-        refined, what stands still is seen by one subframe of a field alone, and only pixels share."""
+    def finished_samples(self):
+        """What the scene asks for, of a finished frame."""
+        cycles = getattr(self.scene, "cycles", None)
+        return cycles.samples if self.scene.render.engine == "CYCLES" and cycles else self.scene.eevee.taa_render_samples
+
+    def samples(self, plan):
+        """Samples a pixel of each subframe: the scene's, divided so that all that a field sees has the noise of a
+        finished frame, and costs what it does. Where it is refined, what stands still is seen by one subframe of a
+        field alone, and only pixels share."""
         if not self.settings.divide_samples:
             return 0
-        cycles = getattr(self.scene, "cycles", None)
-        mine = cycles.samples if self.scene.render.engine == "CYCLES" and cycles else \
-            self.scene.eevee.taa_render_samples
-        shares = 1 if self.refines() else 2 * self.settings.subframes
-        return max(1, round(mine / (shares * self.settings.oversampling ** 2)))
+        if self.refines():
+            return max(1, round(self.finished_samples() / self.settings.oversampling ** 2))
+        return plan["samples_a_pixel"]
 
     def prepared(self, plan):
         """The scene, ready. Noise that moves would be taken for motion where it is refined."""
         self.plan_size = plan["size"]
-        return scene.prepared(self.scene, plan, self.settings.alpha, self.samples(), not self.refines())
+        return scene.prepared(self.scene, plan, self.settings.alpha, self.samples(plan), not self.refines())
