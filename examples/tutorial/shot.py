@@ -10,7 +10,7 @@ import bpy
 scene = bpy.context.scene
 bpy.data.objects.remove(bpy.data.objects["Cube"])
 scene.frame_start, scene.frame_end, scene.render.fps = 1, 4, 25
-scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 64, False
+scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
 scene.cycles.max_bounces = 2
 
 
