@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-static const int wide_base[] = {24, 32, 48, 80, 144, 256}, wide_bits[] = {3, 4, 5, 6, 7};
+static const int wide_base[] = {24, 32, 48, 80, 144, 256, 512, 1024},
+                 wide_bits[] = {3, 4, 5, 6, 7, 8, 9};
 
 int wf_model_symbol(int residual) {
     if (residual < WF_MODEL_DIRECT) return residual;

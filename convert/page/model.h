@@ -5,11 +5,11 @@
 
 #include <stdint.h>
 
-/* A residual of 0 to 255 is a symbol and, from WF_MODEL_DIRECT on, bits that tell which of the
+/* A residual of 0 to 1023 is a symbol and, from WF_MODEL_DIRECT on, bits that tell which of the
  * symbol's residuals it is. */
 enum {
     WF_MODEL_DIRECT = 24,
-    WF_MODEL_SYMBOLS = 29,
+    WF_MODEL_SYMBOLS = 31,
     WF_MODEL_STRIDE = 32, /* of tables by symbol */
     WF_MODEL_CONTEXTS = 256,
     WF_MODEL_BITS = 12 /* shares of a context add up to 1 << this */

@@ -72,8 +72,9 @@ static const struct {
      "guessed: the file does not say its code range, and was taken for what its "
      "kind usually has."},
     {is_segmented, "both fields of a frame show one instant (segmented frames)."},
-    {is_rounded, "codes are rounded to 8 bits, which is what this page shows; measures are of "
-                 "the codes as they are."},
+    {is_rounded,
+     "8 bits are shown of what has more, to the nearest gray and, of color, to a code or two; "
+     "measures are of all bits."},
     {is_linear, "scene-linear light was encoded as its raster has it."},
     {is_brought, "wider colors, or more light than white, were brought to Rec. 709 through "
                  "light, and what a "

@@ -13,16 +13,16 @@
 /* One sample that waits to be packed: its share, what lies before it, and bits behind it. */
 typedef struct waiting {
     uint16_t share, before;
-    uint8_t extra_bits, extra;
+    uint16_t extra_bits, extra;
 } waiting;
 
 struct wf_packer {
     wf_pack_shape shape;
     int64_t fields;
-    wf_model *model;                      /* [planes] */
-    uint8_t *kept[4][WF_PACK_PLANES];     /* the last fields, by number % 4 */
-    uint8_t *residual[4][WF_PACK_PLANES]; /* theirs */
-    waiting *line;                        /* [samples of a field] */
+    wf_model *model;                       /* [planes] */
+    uint16_t *kept[4][WF_PACK_PLANES];     /* the last fields, by number % 4 */
+    uint16_t *residual[4][WF_PACK_PLANES]; /* theirs */
+    waiting *line;                         /* [samples of a field] */
     size_t samples;
     uint8_t *piece; /* [most bytes of a field], filled from its end */
     size_t piece_bytes;
@@ -41,12 +41,12 @@ static bool allocate(wf_packer *k) {
     for (int p = 0; p < k->shape.planes; p++) {
         k->samples += plane_samples(&k->shape, p);
         for (int f = 0; f < 4; f++) {
-            k->kept[f][p] = malloc(plane_samples(&k->shape, p));
-            k->residual[f][p] = calloc(plane_samples(&k->shape, p), 1);
+            k->kept[f][p] = malloc(plane_samples(&k->shape, p) * sizeof(uint16_t));
+            k->residual[f][p] = calloc(plane_samples(&k->shape, p), sizeof(uint16_t));
             made = made && k->kept[f][p] && k->residual[f][p];
         }
     }
-    /* A sample takes at most 12 bits and 7 behind them. */
+    /* A sample takes at most 12 bits and 9 behind them. */
     k->piece_bytes = 3 * k->samples + 16;
     k->line = malloc(k->samples * sizeof *k->line);
     k->piece = malloc(k->piece_bytes);
@@ -90,7 +90,7 @@ const uint8_t *wf_packer_data(const wf_packer *k, size_t *bytes) {
 
 /* The lines that are looked at: of the sample, above it, and of the field before the last. */
 typedef struct around {
-    const uint8_t *own, *above, *old,
+    const uint16_t *own, *above, *old,
         *old_above; /* above NULL: the first line; old: no field */
     int width_px;
 } around;
@@ -122,7 +122,7 @@ static int guess(const around *n, int x, int *varies) {
 /* Residuals that tell of this one: of the first plane those of the field before the last, of
  * the others those of planes before them. */
 static int alike(const wf_packer *k, int p, size_t line, int x) {
-    const uint8_t *const *now = (const uint8_t *const *)k->residual[k->fields % 4];
+    const uint16_t *const *now = (const uint16_t *const *)k->residual[k->fields % 4];
     int fine_x = p ? x * (k->shape.width_px[0] / k->shape.width_px[p]) : x;
     size_t row = line * (size_t)k->shape.width_px[0], at = row + (size_t)fine_x;
     size_t next = at + (fine_x + 1 < k->shape.width_px[0]);
@@ -130,7 +130,7 @@ static int alike(const wf_packer *k, int p, size_t line, int x) {
     if (p == 2)
         return 2 * now[1][line * (size_t)k->shape.width_px[1] + (size_t)x] + now[0][at] / 2;
     if (k->fields < 2) return 0;
-    const uint8_t *old = k->residual[(k->fields - 2) % 4][0];
+    const uint16_t *old = k->residual[(k->fields - 2) % 4][0];
     return old[at] + (next > at ? old[next] : 0);
 }
 
@@ -140,17 +140,17 @@ static void wait(wf_packer *k, int p, int context, int residual, waiting *to) {
     m->seen[context][s]++;
     *to = (waiting){.share = m->share[context][s],
                     .before = m->before[context][s],
-                    .extra_bits = (uint8_t)wf_model_extra_bits(s),
-                    .extra = (uint8_t)(residual - wf_model_base(s))};
+                    .extra_bits = (uint16_t)wf_model_extra_bits(s),
+                    .extra = (uint16_t)(residual - wf_model_base(s))};
 }
 
 /* Makes residuals of a line of a plane. */
 static waiting *predict_line(wf_packer *k, int p, int y, waiting *to) {
     int width = k->shape.width_px[p];
     size_t at = (size_t)y * (size_t)width;
-    const uint8_t *own = k->kept[k->fields % 4][p] + at;
-    const uint8_t *old = k->fields > 1 ? k->kept[(k->fields - 2) % 4][p] + at : NULL;
-    uint8_t *residual = k->residual[k->fields % 4][p] + at;
+    const uint16_t *own = k->kept[k->fields % 4][p] + at;
+    const uint16_t *old = k->fields > 1 ? k->kept[(k->fields - 2) % 4][p] + at : NULL;
+    uint16_t *residual = k->residual[k->fields % 4][p] + at;
     const around n = {.own = own,
                       .above = y ? own - width : NULL,
                       .old = old,
@@ -158,10 +158,10 @@ static waiting *predict_line(wf_packer *k, int p, int y, waiting *to) {
                       .width_px = width};
     for (int x = 0; x < width; x++) {
         int varies, expected = guess(&n, x, &varies);
-        int error = (int8_t)(uint8_t)(own[x] - expected);
+        int error = own[x] - expected;
         int beside = (x ? residual[x - 1] : 0) + (y ? residual[x - width] : 0);
         int context = wf_model_context(varies, beside, alike(k, p, (size_t)y, x));
-        residual[x] = (uint8_t)(error < 0 ? -2 * error - 1 : 2 * error);
+        residual[x] = (uint16_t)(error < 0 ? -2 * error - 1 : 2 * error);
         wait(k, p, context, residual[x], to++);
     }
     return to;
@@ -198,10 +198,11 @@ static bool reserve(wf_packer *k, size_t more) {
     return true;
 }
 
-weft_status wf_packer_add(wf_packer *k, const uint8_t *const plane[], weft_error *err) {
+weft_status wf_packer_add(wf_packer *k, const uint16_t *const plane[], weft_error *err) {
     waiting *to = k->line;
     for (int p = 0; p < k->shape.planes; p++) {
-        memcpy(k->kept[k->fields % 4][p], plane[p], plane_samples(&k->shape, p));
+        memcpy(k->kept[k->fields % 4][p], plane[p],
+               plane_samples(&k->shape, p) * sizeof(uint16_t));
         for (int y = 0; y < k->shape.lines; y++) to = predict_line(k, p, y, to);
     }
     const uint8_t *from = pack_waiting(k);

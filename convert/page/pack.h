@@ -1,4 +1,4 @@
-/* Packs fields of 8-bit codes without loss, for unpack.js to unpack in a browser. */
+/* Packs fields of codes of up to 9 bits without loss, for unpack.js to unpack in a browser. */
 #ifndef WF_CONVERT_PAGE_PACK_H
 #define WF_CONVERT_PAGE_PACK_H
 
@@ -10,6 +10,7 @@
 /* The planes of a field: the first is the finest, the others have its lines and its width or
  * half of it. */
 #define WF_PACK_PLANES 3
+#define WF_PACK_MOST   511 /* the largest code */
 typedef struct wf_pack_shape {
     int planes;
     int width_px[WF_PACK_PLANES];
@@ -23,8 +24,9 @@ weft_status wf_packer_new(const wf_pack_shape *shape, wf_packer **out, weft_erro
 void wf_packer_free(wf_packer *packer); /* NULL is fine */
 
 /* Packs a field, which the one before the last resembles: plane[p] is
- * [lines][width_px[p]]. WEFT_NO_MEMORY: the packer is good for wf_packer_free only. */
-weft_status wf_packer_add(wf_packer *packer, const uint8_t *const plane[], weft_error *err);
+ * [lines][width_px[p]], each up to 511. WEFT_NO_MEMORY: the packer is good for wf_packer_free
+ * only. */
+weft_status wf_packer_add(wf_packer *packer, const uint16_t *const plane[], weft_error *err);
 
 /* What has been packed so far; valid until the next call. */
 const uint8_t *wf_packer_data(const wf_packer *packer, size_t *bytes);

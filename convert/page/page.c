@@ -249,13 +249,13 @@ static weft_status pack_heat(const making *m, wf_page_packed *clip, weft_error *
     const wf_pack_shape shape = {
         .planes = 1, .width_px = {clip->info.width_px}, .lines = clip->info.lines};
     size_t samples = (size_t)clip->info.width_px * (size_t)clip->info.lines;
-    uint8_t *steps = malloc(samples);
+    uint16_t *steps = malloc(samples * sizeof *steps);
     if (!steps) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the heat map");
     for (size_t i = 0; i < samples; i++)
-        steps[i] = (uint8_t)lrint(
+        steps[i] = (uint16_t)lrint(
             255 * fmin(fmax((double)clip->figures.heat[i] / m->page.heat_high, 0), 1));
     weft_status status = wf_packer_new(&shape, &clip->heat, err);
-    if (!status) status = wf_packer_add(clip->heat, (const uint8_t *const[]){steps}, err);
+    if (!status) status = wf_packer_add(clip->heat, (const uint16_t *const[]){steps}, err);
     free(steps);
     return status;
 }

@@ -1,4 +1,4 @@
-/* Frames of any finished video as fields of 8-bit codes. */
+/* Frames of any finished video as fields of codes. */
 #include "convert/page/shown.h"
 
 #include <math.h>
@@ -16,9 +16,9 @@ struct wf_page_shown {
     wf_signals *signals;
     wf_signal *signal;
     wf_luma luma;
-    wf_transform to_709;               /* of colors that are brought there */
-    float *line;                       /* [3][width_px] */
-    uint8_t *plane[2][WF_PACK_PLANES]; /* by parity */
+    wf_transform to_709;                /* of colors that are brought there */
+    float *line;                        /* [3][width_px] */
+    uint16_t *plane[2][WF_PACK_PLANES]; /* by parity */
 };
 
 /* ---- Settling ---- */
@@ -35,13 +35,25 @@ static int weight(double factor) {
     return (int)lround(65536 * factor);
 }
 
-static wf_page_colors colors_of(wf_luma luma, bool full_range) {
+/* How codes of luma stand for Y'. Of more than 8 bits they have 255 steps to white, so that a
+ * gray is the nearest R'G'B', and room for what is below black and above white. */
+typedef struct steps {
+    int black, luma, chroma; /* of black; from black to white; of a chroma of 1 */
+} steps;
+
+static steps steps_of(const wf_video_info *info) {
+    bool full = info->full_range && info->layout != WF_LINEAR;
+    steps s = {full ? 0 : 16, full ? 255 : 219, full ? 255 : 224};
+    if (info->bits > 8) s.black = 64, s.luma = 255;
+    return s;
+}
+
+static wf_page_colors colors_of(wf_luma luma, steps s) {
     const wf_ycbcr m = wf_ycbcr_of(luma);
     double kr = (double)m.kr, kb = (double)m.kb, kg = 1 - kr - kb;
-    double y = full_range ? 1 : 255.0 / 219, c = full_range ? 1 : 255.0 / 224;
-    double red = 2 * (1 - kr) * c, blue = 2 * (1 - kb) * c;
-    return (wf_page_colors){.black = full_range ? 0 : 16,
-                            .luma = weight(y),
+    double red = 2 * (1 - kr) * 255 / s.chroma, blue = 2 * (1 - kb) * 255 / s.chroma;
+    return (wf_page_colors){.black = s.black,
+                            .luma = weight(255.0 / s.luma),
                             .red_cr = weight(red),
                             .green_cb = weight(kb * blue / kg),
                             .green_cr = weight(kr * red / kg),
@@ -59,8 +71,7 @@ static wf_page_form form_of(const wf_video_info *info, bool brought) {
                          .ycbcr = ycbcr,
                          .rounded = info->bits > 8,
                          .brought = brought};
-    form.colors =
-        colors_of(wf_colors_of(info->raster.matrix)->luma, info->full_range && !linear);
+    form.colors = colors_of(wf_colors_of(info->raster.matrix)->luma, steps_of(info));
     return form;
 }
 
@@ -69,7 +80,7 @@ static bool make_room(wf_page_shown *s) {
     for (int p = 0; p < WF_PACK_PLANES; p++)
         for (int parity = 0; parity < 2; parity++) {
             size_t samples = (size_t)s->form.shape.width_px[p] * (size_t)s->form.shape.lines;
-            made = made && (s->plane[parity][p] = malloc(samples));
+            made = made && (s->plane[parity][p] = malloc(samples * sizeof(uint16_t)));
         }
     return made;
 }
@@ -112,33 +123,36 @@ const wf_page_form *wf_page_shown_form(const wf_page_shown *s) {
     return &s->form;
 }
 
-const uint8_t *const *wf_page_shown_field(const wf_page_shown *s, int parity) {
-    return (const uint8_t *const *)s->plane[parity];
+const uint16_t *const *wf_page_shown_field(const wf_page_shown *s, int parity) {
+    return (const uint16_t *const *)s->plane[parity];
 }
 
 /* ---- Frames ---- */
 
-static uint8_t code(float value) {
+/* Halves are rounded up, whatever rounding in float has done to them. */
+static uint16_t code(float value, float most) {
+    const float half = 0.5001f;
     if (!(value > 0)) return 0;
-    return value >= 255 ? 255 : (uint8_t)(value + 0.5f);
+    return (uint16_t)(value >= most ? most : value + half);
 }
 
-static uint8_t *line_of(const wf_page_shown *s, int p, int y) {
+static uint16_t *line_of(const wf_page_shown *s, int p, int y) {
     return s->plane[y % 2][p] + (size_t)(y / 2) * (size_t)s->form.shape.width_px[p];
 }
 
-/* Y'CbCr: codes of 8 bits in the range of the video. */
 static void take_ycbcr(wf_page_shown *s, int p, int y) {
     const wf_signal *signal = s->signal;
     int width = s->form.shape.width_px[p];
-    bool halves = p && width < s->info.width_px, full = s->form.colors.black == 0;
+    bool halves = p && width < s->info.width_px;
     const float *from = signal->ycbcr[p] + (size_t)y * (size_t)s->info.width_px;
     if (halves)
         from = signal->coded.plane[p] +
                (size_t)wf_signal_chroma_line(signal, y) * (size_t)signal->coded.width_px[p];
-    float zero = p ? 128 : full ? 0 : 16, unit = full ? 255 : p ? 224 : 219;
-    uint8_t *to = line_of(s, p, y);
-    for (int x = 0; x < width; x++) to[x] = code(zero + unit * from[x]);
+    steps of = steps_of(&s->info);
+    float unit = (float)(p ? of.chroma : of.luma), zero = (float)(p ? 128 : of.black);
+    float most = p || s->info.bits <= 8 ? 255 : WF_PACK_MOST;
+    uint16_t *to = line_of(s, p, y);
+    for (int x = 0; x < width; x++) to[x] = code(zero + unit * from[x], most);
 }
 
 void wf_page_shown_rgb(const wf_page_shown *s, int y, float *const rgb[3]) {
@@ -155,13 +169,14 @@ void wf_page_shown_rgb(const wf_page_shown *s, int y, float *const rgb[3]) {
 static void take_rgb(wf_page_shown *s, int y) {
     size_t width = (size_t)s->info.width_px;
     float *rgb[3] = {s->line, s->line + width, s->line + 2 * width};
-    uint8_t *to[3] = {line_of(s, 0, y), line_of(s, 1, y), line_of(s, 2, y)};
+    uint16_t *to[3] = {line_of(s, 0, y), line_of(s, 1, y), line_of(s, 2, y)};
     wf_page_shown_rgb(s, y, rgb);
     for (int x = 0; x < s->info.width_px; x++) {
-        uint8_t r = code(255 * rgb[0][x]), g = code(255 * rgb[1][x]), b = code(255 * rgb[2][x]);
+        uint16_t r = code(255 * rgb[0][x], 255), g = code(255 * rgb[1][x], 255),
+                 b = code(255 * rgb[2][x], 255);
         to[0][x] = g;
-        to[1][x] = (uint8_t)(r - g);
-        to[2][x] = (uint8_t)(b - g);
+        to[1][x] = (r - g) & 255;
+        to[2][x] = (b - g) & 255;
     }
 }
 

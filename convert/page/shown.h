@@ -1,4 +1,4 @@
-/* Frames of video as a page has them: fields of 8-bit codes, and how these become R'G'B'. */
+/* Frames of video as a page has them: fields of codes, and how these become R'G'B'. */
 #ifndef WF_CONVERT_PAGE_SHOWN_H
 #define WF_CONVERT_PAGE_SHOWN_H
 
@@ -32,7 +32,7 @@ void wf_page_shown_take(wf_page_shown *shown, const wf_video_frame *frame);
 
 /* Planes of the field of the frame that owns its upper (0) or lower (1) lines; valid until the
  * next frame is taken. */
-const uint8_t *const *wf_page_shown_field(const wf_page_shown *shown, int parity);
+const uint16_t *const *wf_page_shown_field(const wf_page_shown *shown, int parity);
 
 /* R'G'B' of line y of the frame, from 0 to 1 and beyond, in the colors of the page, chroma
  * brought to every pixel by the half-band of Rec. BT.601: [width_px] each. */

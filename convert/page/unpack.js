@@ -2,9 +2,9 @@
    makes R G B A of them in whole numbers. */
 (function () {
   "use strict";
-  var DIRECT = 24, SYMBOLS = 29, STRIDE = 32, CONTEXTS = 256, BITS = 12, SLOTS = 1 << BITS;
+  var DIRECT = 24, SYMBOLS = 31, STRIDE = 32, CONTEXTS = 256, BITS = 12, SLOTS = 1 << BITS;
   var LOW = 8388608;               // a state is at least this
-  var WIDE_BASE = [24, 32, 48, 80, 144], WIDE_BITS = [3, 4, 5, 6, 7];
+  var WIDE_BASE = [24, 32, 48, 80, 144, 256, 512], WIDE_BITS = [3, 4, 5, 6, 7, 8, 9];
 
   function levels(ends, most) {    // the level of every sum up to most, and of all above it
     var table = new Uint8Array(most + 1);
@@ -90,8 +90,8 @@
     this.at += 4;
     var planes = [], residuals = [];
     this.shape.widths.forEach(function (width, p) {
-      planes.push(new Uint8Array(width * lines));
-      residuals.push(new Uint8Array(width * lines));
+      planes.push(new Uint16Array(width * lines));
+      residuals.push(new Uint16Array(width * lines));
       this.plane(p, planes, residuals);
     }, this);
     this.models.forEach(function (model) { model.learn(); });

@@ -68,13 +68,25 @@ def pixels(page, clips, fields):
                 columns = sorted({0, 1, clip.width - 1, *range(tick % 7, clip.width, 23)})
                 most = max(most, worst(page, clip, number % 2, fields, tick, mode, columns))
             check(f"clip {number}, {mode}: all lines are those of the right fields", most <= 0, str(most))
-        page.run("weftPlayer.setMode('weave'); weftPlayer.tick = 1; weftPlayer.draw();")
-        off = max(abs(row[4 * x + k] - clip.exact(1 if y % 2 != clip.first else 0, y, x)[k])
-                  for y, row in enumerate(shown(page, clip, number % 2)) for x in range(0, clip.width, 62)
-                  for k in range(3))
-        luma, *_, blue = clip.weights()
-        rounding = 0.5 + (0.5 * (luma + blue) if clip.bits > 8 else 0)
-        check(f"clip {number}: within what 8 bits leave of the standards' formulas", off <= rounding + 0.01, str(off))
+        formulas(page, clip, number)
+
+
+def formulas(page, clip, number):
+    """The first frame beside the standards' formulas: grays to the nearest code, color to what rounding leaves."""
+    page.run("weftPlayer.setMode('weave'); weftPlayer.tick = 1; weftPlayer.draw();")
+    off, gray_off, grays = 0, 0, 0
+    for y, row in enumerate(shown(page, clip, number % 2)):
+        field = 0 if y % 2 == clip.first else 1
+        for x in range(0, clip.width, 22):
+            exact = clip.exact(field, y, x)
+            worst = max(abs(row[4 * x + k] - exact[k]) for k in range(3))
+            off = max(off, worst)
+            if clip.is_gray(field, y, x):
+                grays, gray_off = grays + 1, max(gray_off, worst)
+    *_, blue = clip.weights()
+    rounding = 0.5 + (0.5 * (1 + blue) if clip.bits > 8 else 0)
+    check(f"clip {number}: within what 8 bits leave of the standards' formulas", off <= rounding + 0.01, str(off))
+    check(f"clip {number}: grays are the nearest there are", gray_off <= 0.501, f"{gray_off}, of {grays}")
 
 
 # ---- Handling ----
