@@ -220,7 +220,7 @@ typedef struct cell_colors {
 static void list_cells(const wf_adaptive *a, const wf_adaptive_samples *k, cell_colors *c) {
     size_t count = 0;
     for (int at = 0; at < GRID_CELLS; at++) c->index[at] = -1;
-    for (size_t n = 0; n < k->count; n++) {
+    for (size_t n = 0; n < k->count; n = end_of_cell(k, n)) {
         int at = k->cell[n] / WF_QUARTERS;
         if (c->index[at] >= 0) continue;
         c->x[count] = wf_cell_x(a, at);
@@ -230,16 +230,37 @@ static void list_cells(const wf_adaptive *a, const wf_adaptive_samples *k, cell_
     c->cells = (wf_sample_cells){count, c->x, c->y, {c->rgb[0], c->rgb[1], c->rgb[2]}, NULL};
 }
 
-/* Leaves of the samples what they differ from the means of their cells. */
+/* The weighted sum of samples first <= n < end of one cell, beyond what it was. */
+static void add_weighted(const wf_adaptive_samples *k, size_t first, size_t end,
+                         double sum[3]) {
+    double r = sum[0], g = sum[1], b = sum[2];
+    for (size_t n = first; n < end; n++) {
+        double weight = (double)k->weight[n];
+        r += (double)k->rgb[0][n] * weight;
+        g += (double)k->rgb[1][n] * weight;
+        b += (double)k->rgb[2][n] * weight;
+    }
+    sum[0] = r;
+    sum[1] = g;
+    sum[2] = b;
+}
+
+/* Leaves of the samples what they differ from the means of their cells: run by run, as they
+ * lie. */
 static void take_means(const wf_adaptive_samples *k, cell_colors *c) {
-    for (int ch = 0; ch < 3; ch++) {
-        double sum[GRID_CELLS] = {0};
-        for (size_t n = 0; n < k->count; n++)
-            sum[c->index[k->cell[n] / WF_QUARTERS]] +=
-                (double)k->rgb[ch][n] * (double)k->weight[n];
-        for (size_t i = 0; i < c->cells.count; i++) c->rgb[ch][i] = (float)sum[i];
-        for (size_t n = 0; n < k->count; n++)
-            k->rgb[ch][n] -= c->rgb[ch][c->index[k->cell[n] / WF_QUARTERS]];
+    double sum[GRID_CELLS][3] = {{0}};
+    for (size_t first = 0, end; first < k->count; first = end) {
+        end = end_of_cell(k, first);
+        add_weighted(k, first, end, sum[c->index[k->cell[first] / WF_QUARTERS]]);
+    }
+    for (size_t i = 0; i < c->cells.count; i++)
+        for (int ch = 0; ch < 3; ch++) c->rgb[ch][i] = (float)sum[i][ch];
+    for (size_t first = 0, end; first < k->count; first = end) {
+        end = end_of_cell(k, first);
+        for (int ch = 0; ch < 3; ch++) {
+            float mean = c->rgb[ch][c->index[k->cell[first] / WF_QUARTERS]];
+            for (size_t n = first; n < end; n++) k->rgb[ch][n] -= mean;
+        }
     }
 }
 
