@@ -4,6 +4,7 @@
 
 #include "convert/ask/asking.h"
 #include "convert/ask/filters.h"
+#include "convert/base/outfile.h"
 #include "filters/aperture/residue.h"
 
 wf_aperture wf_filters_example(const wf_aperture_kind *kind, char *name) {
@@ -91,6 +92,8 @@ weft_status wf_ask_filters(weft_job *job, const weft_filters *asked, bool report
     weft_filters own;
     weft_status status = wf_asked(asked, "weft_filters", &own, sizeof own, err);
     if (!status) status = read_asked(job, &own, query, err);
+    const char *drawn = own.frontier ? own.frontier : own.plot;
+    if (!status && drawn) status = wf_outfile_check(drawn, true, err);
     if (status) return status;
     if (report) wf_json_open(&json, NULL, '{');
     if (own.frontier)

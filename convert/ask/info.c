@@ -44,10 +44,15 @@ static void tell_picture(wf_facts *facts, const wf_image_info *info) {
 }
 
 /* The sequence may lose what is missing. */
-static void take_rate(const wf_image_info *info, wf_sequence *sequence, wf_taken_list *taken) {
+static void take_rate(const wf_image_info *info, wf_sequence *sequence, wf_taken_list *taken,
+                      wf_facts *facts) {
     wf_shown shown;
+    weft_error why;
     char text[48] = "irregular";
-    if (wf_shown_by_files("", info, sequence, &shown, NULL)) return;
+    if (wf_shown_by_files("", info, sequence, &shown, &why)) {
+        wf_fact_text(facts, "trouble", why.text);
+        return;
+    }
     if (!shown.times_s) wf_rate_text(shown.rate, text);
     wf_take(taken, "rate", text, "file");
     wf_shown_free(&shown);
@@ -86,18 +91,20 @@ static weft_status describe_file(const wf_subframe_ref *ref, wf_sequence *sequen
                                        .max_memory_bytes = (size_t)2 << 30};
     wf_subframe *subframe;
     wf_taken_list taken = {0};
-    tell_layers(ref->path, facts, NULL); /* what is wrong with it is told when it is opened */
+    weft_error untold;
+    /* What is wrong with it is told when it is opened. */
+    weft_status layers = tell_layers(ref->path, facts, &untold);
     weft_status status = wf_subframe_open(ref->path, ref->part, &options, &subframe, err);
     if (status) return status;
     tell_picture(facts, wf_subframe_info(subframe));
     wf_subframe_take(subframe, &taken);
-    take_rate(wf_subframe_info(subframe), sequence, &taken);
+    take_rate(wf_subframe_info(subframe), sequence, &taken, facts);
     wf_facts_taken(facts, &taken);
     const wf_file_colors *colors = wf_subframe_colors(subframe);
     if (*colors->trouble) wf_fact_text(facts, "trouble", colors->trouble);
     if (*colors->warning) wf_fact_text(facts, "warning", colors->warning);
     wf_subframe_close(subframe);
-    return WEFT_OK;
+    return layers ? wf_fail(err, layers, "%s", untold.text) : WEFT_OK;
 }
 
 /* ---- Sequences ---- */
@@ -163,13 +170,18 @@ static weft_status tell(char *path, wf_facts *facts, weft_error *err) {
     if (status) return status;
     status = wf_info_y4m(path, facts, &is_y4m, err);
     if (status || is_y4m) return status;
-    if (wf_video_is(path)) return wf_info_video(path, facts, err);
+    bool video;
+    status = wf_video_is(path, &video, err);
+    if (status) return status;
+    if (video) return wf_info_video(path, facts, err);
     int timed = 0; /* parts that are subframes, and no layers of one picture */
-    if (!wf_source_timed_parts(path, &timed, NULL, NULL, NULL) && timed)
-        return describe_sequence(path, facts, err);
+    weft_error untold;
+    weft_status parts = wf_source_timed_parts(path, &timed, NULL, NULL, &untold);
+    if (timed) return describe_sequence(path, facts, err);
     wf_fact_text(facts, "kind", "picture");
     wf_sequence alone = {.step = {1, 1}, .number_step = {1, 1}};
-    return describe_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);
+    status = describe_file(&(wf_subframe_ref){.path = path, .part = -1}, &alone, facts, err);
+    return status || !parts ? status : wf_fail(err, parts, "%s", untold.text);
 }
 
 static weft_status describe(char *path, const wf_info_tell *tell_to, wf_json *json,

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "convert/ask/info_facts.h"
+#include "convert/base/module.h"
 #include "convert/read/rate.h"
 #include "convert/sound/sound.h"
 #include "convert/video/meaning.h"
@@ -31,9 +32,12 @@ weft_status wf_info_meaning(const wf_video *video, const char *path, wf_facts *f
     wf_meaning_take(&meaning, info, &taken);
     (void)wf_meaning_alpha(info, WF_ALPHA_UNSET, &taken);
     char text[48] = "irregular";
-    if (!wf_video_rate(info, path, &rate, NULL)) {
+    weft_error why;
+    if (!wf_video_rate(info, path, &rate, &why)) {
         if (wf_ratio_given(rate)) wf_rate_text(rate, text);
         wf_take(&taken, "rate", text, "file");
+    } else {
+        wf_fact_text(facts, "trouble", why.text);
     }
     wf_facts_taken(facts, &taken);
     return WEFT_OK;
@@ -47,7 +51,10 @@ weft_status wf_info_video(const char *path, wf_facts *facts, weft_error *err) {
     if (status) return status;
     char sound[WF_SOUND_TEXT];
     tell_video(wf_video_info_of(video), facts);
-    if (*wf_sound_in(path, sound)) wf_fact_text(facts, "sound", sound);
+    weft_error why;
+    bool heard = !wf_sound_in(path, sound, &why);
+    if (heard || !wf_module_check("libav", "sound", NULL))
+        wf_fact_text(facts, "sound", heard ? sound : why.text);
     status = wf_info_meaning(video, path, facts, err);
     wf_video_close(video);
     return status;

@@ -1,9 +1,9 @@
 /* What files are: the header of a Y4M file. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
+#include "convert/base/infile.h"
 #include "convert/media/y4m.h"
 #include "convert/ask/info_facts.h"
 
@@ -32,14 +32,14 @@ static weft_status tell_meaning(const char *path, wf_facts *facts, weft_error *e
 weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_error *err) {
     char line[WF_Y4M_LINE];
     wf_y4m h;
-    FILE *file = fopen(path, "rb");
-    if (!file) return wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
+    FILE *file;
+    weft_status status = wf_infile_open(path, &file, err);
+    if (status) return status;
     size_t got = fread(line, 1, sizeof line - 1, file);
     line[got] = '\0';
     char *end = memchr(line, '\n', got);
     *is_y4m = !strncmp(line, WF_Y4M_MAGIC " ", sizeof WF_Y4M_MAGIC);
     if (end) *end = '\0';
-    weft_status status = WEFT_OK;
     if (*is_y4m && end && wf_y4m_parse(line, &h)) {
         tell_header(&h, wf_y4m_count(&h, file, end - line + 1), facts);
         status = h.known ? tell_meaning(path, facts, err) : WEFT_OK;
@@ -47,9 +47,6 @@ weft_status wf_info_y4m(const char *path, wf_facts *facts, bool *is_y4m, weft_er
         status = wf_fail(
             err, WEFT_FAILED,
             "%s: the Y4M header is not whole; it has W, H and F within its first line", path);
-    } else if (ferror(file)) {
-        status = wf_fail(err, WEFT_FAILED, "%s: %s", path, strerror(errno));
     }
-    fclose(file);
-    return status;
+    return wf_infile_close(file, path, status, err);
 }

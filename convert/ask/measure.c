@@ -9,6 +9,7 @@
 #include "convert/ask/asking.h"
 #include "convert/ask/draw.h"
 #include "convert/ask/measure_limit.h"
+#include "convert/base/outfile.h"
 #include "convert/check/heat.h"
 #include "convert/plot/plot.h"
 
@@ -91,7 +92,7 @@ static weft_status check_names(const weft_job *job, const weft_measure *asked,
                        "standard input can be read once, and - is given twice");
     bool own = heatmap &&
                (same_file(heatmap, job->inputs[0]) || (against && same_file(heatmap, against)));
-    if (!own) return WEFT_OK;
+    if (!own) return heatmap ? wf_outfile_check(heatmap, true, err) : WEFT_OK;
     return wf_fail(err, WEFT_USAGE,
                    "--heatmap %.300s would replace what is measured; give it another name",
                    heatmap);

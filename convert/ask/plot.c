@@ -6,6 +6,7 @@
 #include "convert/ask/plot_file.h"
 #include "convert/base/fail.h"
 #include "convert/base/names.h"
+#include "convert/base/outfile.h"
 
 /* The ending of a name tells; standard output is SVG. */
 static weft_status choose_format(const char *output, wf_plot_format *format, weft_error *err) {
@@ -36,5 +37,6 @@ weft_status weft_plot(const char *path, const char *output, weft_error *err) {
     wf_plot_format format;
     if (!path || !*path) return wf_fail(err, WEFT_USAGE, "the name of a plot's file is empty");
     weft_status status = choose_format(output, &format, err);
+    if (!status) status = wf_outfile_check(output, true, err);
     return status ? status : draw(path, output, format, err);
 }

@@ -526,7 +526,7 @@ static weft_status load(reading *r) {
     bool exhausted = errno == ENOMEM; /* which jansson may take for a fault of the text */
     bool unread = ferror(file);
     if (!standard_input) fclose(file);
-    if (unread) return wf_fail(r->err, WEFT_FAILED, "%.300s: it cannot be read", r->path);
+    if (unread) return wf_fail(r->err, WEFT_FAILED, "%.300s: %s", r->path, strerror(EIO));
     if (r->file->root) return WEFT_OK;
     if (exhausted) return no_memory(r);
     return wf_fail(r->err, WEFT_USAGE, "%.300s: line %d, column %d: %s", r->path, why.line,

@@ -66,8 +66,9 @@ static weft_status verify_all(weft_job *job, wf_verify_options *options,
     wf_troubles troubles = {.tell = tell ? tell->trouble : NULL,
                             .user = tell ? tell->user : NULL};
     weft_status status = WEFT_OK;
-    wf_identities *all = wf_identities_read((const char *const *)job->inputs, job->input_count);
-    if (!all) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    wf_identities *all;
+    status = wf_identities_read((const char *const *)job->inputs, job->input_count, &all, err);
+    if (status) return status;
     options->others = all;
     wf_json_open(&json, NULL, '[');
     for (size_t i = 0; i < job->input_count && status != WEFT_INTERRUPTED; i++)

@@ -2,8 +2,10 @@
 #include "convert/base/module.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <link.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +48,38 @@ static bool find_module(const char *name, char path[PATH_MAX]) {
     for (int i = known ? 0 : PLACES_FROM_HERE; place_at(i, directory, name, path); i++)
         if (!access(path, F_OK)) return true;
     return false;
+}
+
+/* ---- Threads ---- */
+
+/* Libraries that OpenImageIO 2.4 is linked with start threads as they are loaded, and end the
+ * process where the system allows none. So many are tried first. */
+#define THREADS_OF_LIBRARIES 8
+
+static void *do_nothing(void *user) {
+    return user;
+}
+
+/* Returns 0 or an errno. */
+static int try_threads(void) {
+    pthread_t thread[THREADS_OF_LIBRARIES];
+    pthread_attr_t how;
+    int started = 0, code = pthread_attr_init(&how);
+    while (!code && started < THREADS_OF_LIBRARIES) {
+        code = pthread_create(&thread[started], &how, do_nothing, NULL);
+        started += !code;
+    }
+    for (int i = 0; i < started; i++) pthread_join(thread[i], NULL);
+    return code;
+}
+
+static weft_status check_threads(const char *name, weft_error *err) {
+    int code = strcmp(name, "oiio") ? 0 : try_threads();
+    if (!code) return WEFT_OK;
+    return wf_fail(err, code == ENOMEM ? WEFT_NO_MEMORY : WEFT_FAILED,
+                   "OpenImageIO starts threads, and the system allows no more of them: %s; "
+                   "raise the limit (ulimit -u), or write what needs no OpenImageIO",
+                   strerror(code));
 }
 
 /* ---- What a module needs ---- */
@@ -110,10 +144,14 @@ weft_status wf_module_symbol(const char *name, const char *symbol, const char *w
     char path[PATH_MAX];
     *symbol_out = NULL;
     weft_status status = locate(name, what, path, err);
+    if (!status) status = check_threads(name, err);
     if (status) return status;
     /* Never closed: a library such as OpenImageIO leaves threads behind. Loading one again
      * costs microseconds, and the loader has the lock. */
+    errno = 0;
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!module && errno == ENOMEM)
+        return wf_fail(err, WEFT_NO_MEMORY, "the module %.300s: no memory to load it", path);
     if (!module)
         return wf_fail(
             err, WEFT_FAILED,

@@ -194,6 +194,16 @@ weft_status wf_outfile_open(const char *path, bool overwrite, wf_outfile **out,
     return status;
 }
 
+weft_status wf_outfile_check(const char *path, bool overwrite, weft_error *err) {
+    wf_outplace place = {.path = NULL};
+    int fd = -1;
+    if (!strcmp(path, "-") || is_stream(path)) return WEFT_OK;
+    weft_status status = wf_outplace_open(path, overwrite, &place, &fd, err);
+    if (fd >= 0) close(fd);
+    wf_outplace_forget(&place);
+    return status;
+}
+
 /* Returns 0 or an errno. A file system that has nothing to sync is no failure. */
 static int sync_data(int fd) {
     while (fdatasync(fd)) {

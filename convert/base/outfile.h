@@ -20,6 +20,9 @@ weft_status wf_outfile_seek(wf_outfile *file, int64_t offset, weft_error *err);
 /* Reads back what was written there: *got bytes, fewer at the end of the file. */
 weft_status wf_outfile_read(wf_outfile *file, int64_t offset, void *data, size_t bytes,
                             size_t *got, weft_error *err);
+/* Whether a file could be written there now, as wf_outfile_open would: for outputs that are
+ * written after long work. Nothing is left. Pipes and devices are not opened. */
+weft_status wf_outfile_check(const char *path, bool overwrite, weft_error *err);
 weft_status wf_outfile_commit(wf_outfile *file, weft_error *err); /* frees file in any case */
 void wf_outfile_abandon(wf_outfile *file);
 

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "convert/write/sink.h"
+
 static bool has_key(const wf_setup *s) {
     return s->key.kind;
 }
@@ -62,12 +64,12 @@ static wf_frame frame_of(const wf_setup *s, const wf_outputs *o, const void *key
 /* ---- Both outputs ---- */
 
 weft_status wf_outputs_open(const wf_setup *s, wf_outputs *o, weft_error *err) {
-    weft_status status = s->output.ops->open(&s->output_options, &o->fill, err);
+    weft_status status = wf_output_open(s->output, &s->output_options, &o->fill, err);
     if (status || !has_key(s)) return status;
     wf_output_options key = s->key_options;
     key.timecode = s->output_options.timecode; /* which the input may have told since */
     status = make_neutral(s, o, err);
-    return status ? status : s->key.ops->open(&key, &o->key, err);
+    return status ? status : wf_output_open(s->key, &key, &o->key, err);
 }
 
 weft_status wf_outputs_write(const wf_setup *s, wf_outputs *o, const wf_frame *fill,

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "convert/finish/setup.h"
+#include "convert/read/video.h"
 #include "convert/job/delivery.h"
 #include "convert/sound/sound.h"
 
@@ -19,7 +20,12 @@ weft_status wf_setup_sound(const weft_job *job, wf_setup *s, wf_taken_list *take
 weft_status wf_setup_keep_sound(weft_job *job, weft_error *err) {
     char text[WF_SOUND_TEXT];
     const wf_output_kind *kind = wf_output_for(job->output, job->codec, err).kind;
-    wf_sound_in(job->inputs[0], text);
+    weft_error why;
+    bool video;
+    weft_status status = wf_video_is(job->inputs[0], &video, err);
+    if (status) return status;
+    if (wf_sound_in(job->inputs[0], text, &why) && video)
+        wf_job_warn(job, "its sound is left out: %s", why.text);
     if (!*text || !strcmp(text, "none")) return WEFT_OK;
     if (kind->container) return weft_job_set(job, "audio", "copy", err);
     wf_job_warn(job, "%.500s: %s has no sound, and that of the input is left out", job->output,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/base/infile.h"
 #include "convert/media/tiff_tags.h"
 
 /* ---- ICC profiles ---- */
@@ -183,7 +184,7 @@ static void read_dpx(FILE *file, wf_color_said *said) {
 static void read_hdr(FILE *file, wf_color_said *said) {
     char line[256];
     double xy[8];
-    rewind(file);
+    if (fseeko(file, 0, SEEK_SET)) return;
     while (fgets(line, sizeof line, file) && *line != '\n')
         if (sscanf(line, "PRIMARIES= %lf %lf %lf %lf %lf %lf %lf %lf", &xy[0], &xy[1], &xy[2],
                    &xy[3], &xy[4], &xy[5], &xy[6], &xy[7]) == 8) {
@@ -194,7 +195,8 @@ static void read_hdr(FILE *file, wf_color_said *said) {
 
 /* ---- The formats ---- */
 
-void wf_read_color_tags(const char *path, const char *format, wf_color_said *said) {
+weft_status wf_read_color_tags(const char *path, const char *format, wf_color_said *said,
+                               weft_error *err) {
     static const struct {
         const char *format;
         void (*read)(FILE *file, wf_color_said *said);
@@ -202,9 +204,11 @@ void wf_read_color_tags(const char *path, const char *format, wf_color_said *sai
                    {"webp", read_webp}, {"jpeg", read_jpeg}, {"tiff", read_tiff}};
     for (size_t i = 0; i < sizeof readers / sizeof *readers; i++) {
         if (strcmp(readers[i].format, format)) continue;
-        FILE *file = fopen(path, "rbe");
-        if (!file) return;
+        FILE *file;
+        weft_status status = wf_infile_open(path, &file, err);
+        if (status) return status;
         readers[i].read(file, said);
-        fclose(file);
+        return wf_infile_close(file, path, WEFT_OK, err);
     }
+    return WEFT_OK;
 }

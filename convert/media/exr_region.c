@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/base/infile.h"
+
 enum { LONGEST_NAME = 256, MOST_ATTRIBUTES = 4096, LONGEST_TEXT = 128 };
 
 /* An attribute: its name and type, and how many bytes of the file its value has. */
@@ -132,11 +134,12 @@ static bool meets(const header *h) {
 weft_status wf_exr_region(const char *path, wf_box *region, bool *has, weft_error *err) {
     header h = {.has_region = false};
     *has = false;
-    FILE *file = fopen(path, "rbe");
-    if (!file) return WEFT_OK; /* who opens it to read says why */
+    FILE *file;
+    weft_status status = wf_infile_open(path, &file, err);
+    if (status) return status;
     read_header(file, &h);
-    fclose(file);
-    if (!h.has_region) return WEFT_OK;
+    status = wf_infile_close(file, path, WEFT_OK, err);
+    if (status || !h.has_region) return status;
     if (h.is_far || !settle(&h) || !meets(&h))
         return wf_fail(
             err, WEFT_FAILED,

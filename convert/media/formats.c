@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "convert/base/big_endian.h"
+#include "convert/base/infile.h"
 #include "convert/media/kinds.h"
 #include "convert/media/tiff_tags.h"
 
@@ -279,34 +280,34 @@ static bool tells_animation(FILE *file) {
     return false;
 }
 
-bool wf_is_animated_png(const char *path) {
-    FILE *file = fopen(path, "rbe");
-    bool found = file && tells_animation(file);
-    if (file) fclose(file);
-    return found;
+weft_status wf_is_animated_png(const char *path, bool *is, weft_error *err) {
+    FILE *file;
+    *is = false;
+    weft_status status = wf_infile_open(path, &file, err);
+    if (status) return status;
+    *is = tells_animation(file);
+    return wf_infile_close(file, path, WEFT_OK, err);
 }
 
-bool wf_begins_as_picture(const char *path) {
+weft_status wf_begins_as_picture(const char *path, bool *is, weft_error *err) {
     char head[12] = "";
-    FILE *file = fopen(path, "rbe");
-    size_t got = file ? fread(head, 1, sizeof head, file) : 0;
-    if (file) fclose(file);
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (got == sizeof head && !memcmp(head, formats[i].magic, formats[i].magic_bytes))
-            return formats[i].examine != examine_webp || !memcmp(head + 8, "WEBP", 4);
-    return false;
+    size_t got;
+    *is = false;
+    weft_status status = wf_infile_head(path, head, sizeof head, &got, err);
+    for (size_t i = 0; !*is && i < sizeof formats / sizeof *formats; i++)
+        *is = got == sizeof head && !memcmp(head, formats[i].magic, formats[i].magic_bytes) &&
+              (formats[i].examine != examine_webp || !memcmp(head + 8, "WEBP", 4));
+    return status;
 }
 
 weft_status wf_format_of(const char *path, const char **format, weft_error *err) {
     struct stat about;
-    exam x = {.path = path, .file = fopen(path, "rbe"), .err = err};
-    if (!x.file || fstat(fileno(x.file), &about)) {
-        int code = errno;
-        if (x.file) fclose(x.file);
-        return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(code));
-    }
+    exam x = {.path = path, .err = err};
+    weft_status status = wf_infile_open(path, &x.file, err);
+    if (status) return status;
+    if (fstat(fileno(x.file), &about))
+        status = wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(errno));
     x.bytes = (uint64_t)about.st_size;
-    weft_status status = examine(&x, format);
-    fclose(x.file);
-    return status;
+    if (!status) status = examine(&x, format);
+    return wf_infile_close(x.file, path, status, err);
 }

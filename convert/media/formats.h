@@ -14,11 +14,12 @@
  * names the file. */
 weft_status wf_format_of(const char *path, const char **format, weft_error *err);
 
-/* Whether it is a PNG of several pictures (APNG), which are video. */
-bool wf_is_animated_png(const char *path);
+/* Whether it is a PNG of several pictures (APNG), which are video. WEFT_FAILED if it cannot be
+ * read. */
+weft_status wf_is_animated_png(const char *path, bool *is, weft_error *err);
 
 /* Whether the file at path begins as one of them does, whatever it is called. TGA begins with
- * nothing of its own, and is told by its name. */
-bool wf_begins_as_picture(const char *path);
+ * nothing of its own, and is told by its name. WEFT_FAILED if it cannot be read. */
+weft_status wf_begins_as_picture(const char *path, bool *is, weft_error *err);
 
 #endif

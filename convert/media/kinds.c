@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/base/infile.h"
 #include "convert/base/names.h"
 
 /* Codes stay codes in TIFF, which is taken as sRGB; EXR is for light. */
@@ -159,9 +160,7 @@ weft_status wf_refuse_kind(const char *path, weft_error *err) {
     unsigned char head[HEAD_BYTES];
     bool raw_video = wf_name_ends_in(path, ".v210") || wf_name_ends_in(path, ".uyvy");
     if (raw_video || stat(path, &about) || !S_ISREG(about.st_mode)) return WEFT_OK;
-    FILE *file = fopen(path, "rbe");
-    if (!file) return WEFT_OK; /* whoever opens it says why */
-    size_t got = fread(head, 1, sizeof head, file);
-    fclose(file);
-    return refuse_head(path, head, got, err);
+    size_t got;
+    weft_status status = wf_infile_head(path, head, sizeof head, &got, err);
+    return status ? status : refuse_head(path, head, got, err);
 }

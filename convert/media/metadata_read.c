@@ -2,10 +2,10 @@
  */
 #include "convert/media/metadata_read.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/base/infile.h"
 #include "convert/base/module.h"
 #include "convert/media/metadata_mov.h"
 #include "convert/media/metadata_mxf.h"
@@ -21,11 +21,11 @@ weft_status wf_metadata_read(const char *path, wf_metadata *metadata, weft_error
     memcpy(&ask, &symbol, sizeof ask);
     status = ask(path, metadata, err);
     if (status) return status;
-    FILE *file = fopen(path, "rbe");
-    if (!file) return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(errno));
+    FILE *file;
+    status = wf_infile_open(path, &file, err);
+    if (status) return status;
     if (!strcmp(metadata->container, "mov")) wf_metadata_mov(file, metadata);
     if (!strcmp(metadata->container, "mxf")) wf_metadata_mxf(file, metadata);
-    fclose(file);
     wf_metadata_mxf_scan(metadata);
-    return WEFT_OK;
+    return wf_infile_close(file, path, WEFT_OK, err);
 }

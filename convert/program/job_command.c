@@ -81,7 +81,8 @@ static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, job_state 
 
 static weft_status write_report(const char *path, const weft_job *job, weft_error *err) {
     const char *json = weft_job_report(job);
-    if (!strcmp(json, "{}")) return WEFT_OK; /* the run did not get far enough to have one */
+    if (!strcmp(json, "{}"))
+        return wf_fail(err, WEFT_NO_MEMORY, "%.700s: no memory for the report", path);
     wf_outfile *file;
     weft_status status = wf_outfile_open(path, true, &file, err);
     if (status) return status;
@@ -184,6 +185,7 @@ weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_er
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = weft_job_set_command(job, cmd->name, err);
     if (!status) status = fill_job(cmd, argc, argv, &state, job, err);
+    if (!status && state.report) status = wf_outfile_check(state.report, true, err);
     if (!status && state.compare)
         status = compare(&state, job, err);
     else if (!status)

@@ -125,7 +125,9 @@ static weft_status decode_by_core(wf_chunk_decoder *d, const wf_subframe *s,
     if (result == EXR_ERR_SUCCESS) result = run_pipeline(&pipeline, s, chunk, packed, out);
     exr_decoding_destroy(s->exr, &pipeline);
     d->exr.suspect = true;
-    return result == EXR_ERR_SUCCESS ? WEFT_OK : damaged(s, chunk, wf_exr_trouble(result), err);
+    if (result == EXR_ERR_SUCCESS) return WEFT_OK;
+    weft_status status = wf_exr_stream_trouble(&s->stream, result, s->path, err);
+    return status ? status : damaged(s, chunk, wf_exr_trouble(result), err);
 }
 
 /* A deflated chunk that came out just as long as its samples should have been stored as it was,

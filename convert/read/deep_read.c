@@ -7,6 +7,7 @@
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "convert/base/reserve.h"
 #include "convert/read/choice/exr_parts.h"
@@ -26,7 +27,8 @@ typedef struct stored {
 
 struct wf_deep_file {
     char *path;
-    exr_context_t exr;
+    wf_exr_stream stream;
+    exr_context_t exr; /* of the stream */
     exr_compression_t compression;
     int width, lines, y0, y1; /* of the raster; of the file's lines */
     stored channel[MOST_STORED];
@@ -46,31 +48,25 @@ static const struct {
     [WF_DEEP_A] = {"A", false},       [WF_DEEP_WEIGHT] = {"sample.w", false},
 };
 
-static void say_nothing(exr_const_context_t exr, exr_result_t code, const char *text) {
-    (void)exr, (void)code, (void)text;
-}
-
-static exr_result_t start(const char *path, exr_context_t *exr) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = say_nothing;
-    return exr_start_read(exr, path, &how);
-}
-
 static bool is_deep(exr_context_t exr) {
     exr_storage_t storage;
     return exr_get_storage(exr, 0, &storage) == EXR_ERR_SUCCESS &&
            storage == EXR_STORAGE_DEEP_SCANLINE;
 }
 
-bool wf_deep_is(const char *path) {
-    exr_context_t exr = NULL;
-    bool found = false;
-    if (start(path, &exr) != EXR_ERR_SUCCESS) return false;
-    const exr_attr_chlist_t *list = is_deep(exr) ? wf_exr_channels(exr, 0) : NULL;
+weft_status wf_deep_is(const char *path, bool *is, weft_error *err) {
+    wf_exr_stream stream = {.exr = NULL};
+    struct stat about;
+    *is = false;
+    if (stat(path, &about) || !S_ISREG(about.st_mode)) return WEFT_OK;
+    exr_result_t result = wf_exr_stream_start(&stream, path);
+    weft_status status = wf_exr_stream_trouble(&stream, result, path, err);
+    bool deep = result == EXR_ERR_SUCCESS && is_deep(stream.exr);
+    const exr_attr_chlist_t *list = deep ? wf_exr_channels(stream.exr, 0) : NULL;
     for (int c = 0; list && c < list->num_channels; c++)
-        found |= !strcmp(list->entries[c].name.str, names[WF_DEEP_X].name);
-    exr_finish(&exr);
-    return found;
+        *is |= !strcmp(list->entries[c].name.str, names[WF_DEEP_X].name);
+    wf_exr_stream_end(&stream);
+    return status;
 }
 
 /* ---- Opening ---- */
@@ -145,11 +141,12 @@ weft_status wf_deep_open(const char *path, const wf_raster *raster, wf_deep_file
         free(f);
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory", path);
     }
-    exr_result_t result = start(path, &f->exr);
-    weft_status status = WEFT_OK;
-    if (result != EXR_ERR_SUCCESS)
+    exr_result_t result = wf_exr_stream_start(&f->stream, path);
+    weft_status status = wf_exr_stream_trouble(&f->stream, result, path, err);
+    f->exr = f->stream.exr;
+    if (!status && result != EXR_ERR_SUCCESS)
         status = wf_fail(err, WEFT_FAILED, "%s: %s", path, wf_exr_trouble(result));
-    else if (!is_deep(f->exr))
+    else if (!status && !is_deep(f->exr))
         status = wf_fail(err, WEFT_FAILED,
                          "%s: the first file is a sample buffer and this one is not", path);
     if (!status) status = find_channels(f, err);
@@ -167,7 +164,7 @@ weft_status wf_deep_open(const char *path, const wf_raster *raster, wf_deep_file
 
 void wf_deep_close(wf_deep_file *f) {
     if (!f) return;
-    if (f->exr) exr_finish(&f->exr);
+    wf_exr_stream_end(&f->stream);
     free(f->path);
     free(f);
 }
@@ -184,6 +181,16 @@ const char *wf_deep_space(const wf_deep_file *f) {
 
 static weft_status damaged(const wf_deep_file *f, int y, const char *how, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: line %d is damaged: %s", f->path, y, how);
+}
+
+static weft_status unread(const wf_deep_file *f, int y, exr_result_t result, const char *how,
+                          weft_error *err) {
+    weft_status status = wf_exr_stream_trouble(&f->stream, result, f->path, err);
+    return status ? status : damaged(f, y, how, err);
+}
+
+static weft_status no_memory(const wf_deep_file *f, int y, weft_error *err) {
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
 }
 
 /* Runs: a count n >= 0 and a byte that comes n + 1 times, or n < 0 and -n bytes as they are. */
@@ -203,26 +210,32 @@ static bool expand_runs(const uint8_t *in, size_t in_bytes, uint8_t *out, size_t
     return out == last;
 }
 
-/* A block of a chunk, unpacked; stored ones are as they are. */
-static bool unpack(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *in,
-                   size_t in_bytes, size_t bytes, const uint8_t **out) {
+static weft_status inflate(const uint8_t *in, size_t in_bytes, uint8_t *out, size_t bytes) {
+    struct libdeflate_decompressor *how = libdeflate_alloc_decompressor();
+    if (!how) return WEFT_NO_MEMORY;
+    bool good =
+        libdeflate_zlib_decompress(how, in, in_bytes, out, bytes, NULL) == LIBDEFLATE_SUCCESS;
+    libdeflate_free_decompressor(how);
+    return good ? WEFT_OK : WEFT_FAILED;
+}
+
+/* A block of a chunk, unpacked; stored ones are as they are. WEFT_FAILED: it is damaged. */
+static weft_status unpack(const wf_deep_file *f, wf_deep_buffers *b, const uint8_t *in,
+                          size_t in_bytes, size_t bytes, const uint8_t **out) {
     *out = in;
-    if (f->compression == EXR_COMPRESSION_NONE || in_bytes == bytes) return in_bytes == bytes;
+    if (f->compression == EXR_COMPRESSION_NONE || in_bytes == bytes)
+        return in_bytes == bytes ? WEFT_OK : WEFT_FAILED;
     if (!wf_reserve(&b->inflated, &b->inflated_capacity, bytes + 1) ||
         !wf_reserve(&b->merged, &b->merged_capacity, bytes + 64))
-        return false;
-    bool good;
-    if (f->compression == EXR_COMPRESSION_RLE) {
-        good = expand_runs(in, in_bytes, b->inflated, bytes);
-    } else {
-        struct libdeflate_decompressor *how = libdeflate_alloc_decompressor();
-        good = how && libdeflate_zlib_decompress(how, in, in_bytes, b->inflated, bytes, NULL) ==
-                          LIBDEFLATE_SUCCESS;
-        if (how) libdeflate_free_decompressor(how);
-    }
-    if (good) wf_unzip_ops_best()->merge(b->merged, b->inflated, bytes);
+        return WEFT_NO_MEMORY;
+    weft_status status = WEFT_OK;
+    if (f->compression != EXR_COMPRESSION_RLE)
+        status = inflate(in, in_bytes, b->inflated, bytes);
+    else if (!expand_runs(in, in_bytes, b->inflated, bytes))
+        status = WEFT_FAILED;
+    if (!status) wf_unzip_ops_best()->merge(b->merged, b->inflated, bytes);
     *out = b->merged;
-    return good;
+    return status;
 }
 
 static bool check_counts(const int32_t *upto, int width) {
@@ -278,34 +291,45 @@ static weft_status check_samples(const wf_deep_file *f, const wf_deep_buffers *b
     return WEFT_OK;
 }
 
-static weft_status read_chunk(const wf_deep_file *f, wf_deep_buffers *b, int y,
-                              weft_error *err) {
+/* The packed table of counts and the packed samples of line y, one after the other. */
+static weft_status read_packed(const wf_deep_file *f, wf_deep_buffers *b, int y, size_t table,
+                               exr_chunk_info_t *out, weft_error *err) {
     exr_chunk_info_t info;
-    size_t table = (size_t)f->width * sizeof(int32_t);
-    const uint8_t *counts, *raw;
-    if (exr_read_scanline_chunk_info(f->exr, 0, y, &info))
-        return damaged(f, y, "it is not there", err);
+    exr_result_t result = exr_read_scanline_chunk_info(f->exr, 0, y, &info);
+    if (result) return unread(f, y, result, "it is not there", err);
     /* A deflated block is not longer than it was, and a table's length is known. */
     if (info.sample_count_table_size > 2 * table + 1024 ||
         info.packed_size > (uint64_t)1 << 32 || info.unpacked_size > (uint64_t)1 << 32)
         return damaged(f, y, "its sizes are not those of samples", err);
-    size_t data = (size_t)info.packed_size;
     if (!wf_reserve(&b->packed, &b->packed_capacity,
-                    (size_t)info.sample_count_table_size + data + 1))
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
-    uint8_t *packed = b->packed + info.sample_count_table_size;
-    if (exr_read_deep_chunk(f->exr, 0, &info, packed, b->packed))
-        return damaged(f, y, "it cannot be read", err);
-    if (!unpack(f, b, b->packed, (size_t)info.sample_count_table_size, table, &counts))
-        return damaged(f, y, "its counts do not unpack", err);
+                    (size_t)info.sample_count_table_size + (size_t)info.packed_size + 1))
+        return no_memory(f, y, err);
+    *out = info;
+    result = exr_read_deep_chunk(f->exr, 0, &info, b->packed + info.sample_count_table_size,
+                                 b->packed);
+    return result ? unread(f, y, result, "it cannot be read", err) : WEFT_OK;
+}
+
+static weft_status read_chunk(const wf_deep_file *f, wf_deep_buffers *b, int y,
+                              weft_error *err) {
+    exr_chunk_info_t info = {0};
+    size_t table = (size_t)f->width * sizeof(int32_t);
+    const uint8_t *counts, *raw;
+    weft_status status = read_packed(f, b, y, table, &info, err);
+    if (status) return status;
+    size_t counts_bytes = (size_t)info.sample_count_table_size;
+    status = unpack(f, b, b->packed, counts_bytes, table, &counts);
+    if (status == WEFT_NO_MEMORY) return no_memory(f, y, err);
+    if (status) return damaged(f, y, "its counts do not unpack", err);
     memcpy(b->line.upto, counts, table);
     if (!check_counts(b->line.upto, f->width)) return damaged(f, y, "its counts are none", err);
-    size_t samples = (size_t)b->line.upto[f->width - 1];
-    if (samples * f->sample_bytes != info.unpacked_size ||
-        !unpack(f, b, packed, data, samples * f->sample_bytes, &raw))
+    size_t samples = (size_t)b->line.upto[f->width - 1], bytes = samples * f->sample_bytes;
+    status = bytes == info.unpacked_size
+                 ? unpack(f, b, b->packed + counts_bytes, (size_t)info.packed_size, bytes, &raw)
+                 : WEFT_FAILED;
+    if (status == WEFT_FAILED)
         return damaged(f, y, "its samples do not unpack to their number", err);
-    if (!take_channels(f, b, raw, samples))
-        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for line %d", f->path, y);
+    if (status || !take_channels(f, b, raw, samples)) return no_memory(f, y, err);
     return check_samples(f, b, y, err);
 }
 

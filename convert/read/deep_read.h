@@ -5,8 +5,9 @@
 #include "convert/media/deep.h"
 #include "filters/raster/raster.h"
 
-/* Whether a file is a sample buffer: a deep EXR with a channel sample.x. */
-bool wf_deep_is(const char *path);
+/* Whether a file is a sample buffer: a deep EXR with a channel sample.x. An error: it is there
+ * and cannot be read. */
+weft_status wf_deep_is(const char *path, bool *is, weft_error *err);
 
 typedef struct wf_deep_file wf_deep_file; /* open; immutable, any threads */
 

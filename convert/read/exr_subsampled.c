@@ -196,9 +196,7 @@ static weft_status decode_all(reading *r, weft_error *err) {
     const wf_subframe *s = r->s;
     for (int y = s->info.data.y0; y < s->info.data.y1; y += s->layout.chunk_lines) {
         exr_result_t result = decode_chunk(r, y);
-        if (result != EXR_ERR_SUCCESS)
-            return wf_fail(err, WEFT_FAILED, "%s: the chunk at line %d cannot be read: %s",
-                           s->path, y - s->info.display.y0, wf_exr_trouble(result));
+        if (result != EXR_ERR_SUCCESS) return wf_exr_unread(s, y, result, err);
     }
     return WEFT_OK;
 }

@@ -77,9 +77,7 @@ static weft_status read_chunk(wf_packed *p, const wf_subframe *s, int x, int y,
         result = EXR_ERR_CORRUPT_CHUNK;
     if (result == EXR_ERR_SUCCESS)
         result = exr_read_chunk(s->exr, s->part, &chunk->info, p->bytes + p->used);
-    if (result != EXR_ERR_SUCCESS)
-        return wf_fail(err, WEFT_FAILED, "%s: the chunk at line %d cannot be read: %s", s->path,
-                       place.y0 - s->info.display.y0, wf_exr_trouble(result));
+    if (result != EXR_ERR_SUCCESS) return wf_exr_unread(s, y, result, err);
     p->used += (size_t)packed;
     p->count++;
     return WEFT_OK;
@@ -480,12 +478,17 @@ static bool bring_to_light(wf_reader *r, const wf_subframe *s) {
     return true;
 }
 
+static void add_nan(wf_nan_counts *to, wf_nan_counts of) {
+    to->fixed += of.fixed;
+    to->alone += of.alone;
+}
+
 weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, wf_rows *rows,
                            weft_error *err) {
     bool changed;
     weft_status status = raw_rows(r, s, y0, y1, &changed, err);
     if (!status && changed) {
-        r->fixed = 0;
+        r->fixed = (wf_nan_counts){0, 0};
         if (r->decoder.exr.suspect && r->options.nan_fix != WF_NAN_NONE &&
             any_not_finite(r, &r->rows))
             status = fix_nan(r, s, err);
@@ -493,7 +496,7 @@ weft_status wf_reader_rows(wf_reader *r, const wf_subframe *s, int y0, int y1, w
     }
     r->held = !status && s->exr;
     if (status) return status;
-    r->counts.nan_fixed += r->fixed;
+    add_nan(&r->counts.nan, r->fixed);
     *rows = r->rows;
     return WEFT_OK;
 }
@@ -508,7 +511,7 @@ weft_status wf_reader_same(wf_reader *r, const wf_subframe *s, int y0, int y1, b
         if (!same_chunk(&r->kept, &r->ahead, i)) return WEFT_OK;
     r->ahead_of = NULL;
     r->counts.chunks_reused += r->ahead.count;
-    r->counts.nan_fixed += r->fixed;
+    add_nan(&r->counts.nan, r->fixed);
     *same = true;
     return WEFT_OK;
 }

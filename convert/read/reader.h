@@ -25,7 +25,7 @@ struct wf_reader {
     bool held; /* a result stands: */
     wf_exr_layout layout;
     wf_rows rows;
-    int64_t fixed; /* pixels of it that had NaN or Inf */
+    wf_nan_counts fixed;
 
     uint8_t *native; /* [lines][channels of the file][width] from line native_y0 on */
     size_t native_capacity;

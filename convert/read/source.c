@@ -107,8 +107,8 @@ static weft_status open_whole(wf_subframe *s, const wf_source_options *o, int pa
     free(names);
     if (status) return status;
     if (part < 0 && o->part) s->pick.part_reason = WF_REASON_OPTION;
-    wf_read_color_tags(s->path, format, &s->info.colors);
-    status = wf_subframe_settle_colors(s, o, err);
+    status = wf_read_color_tags(s->path, format, &s->info.colors, err);
+    if (!status) status = wf_subframe_settle_colors(s, o, err);
     if (status) return status;
     wf_subframe_settle_alpha(s, o);
     return read_whole(s, o, err);
@@ -120,7 +120,7 @@ static weft_status read_subsampled(wf_subframe *s, const wf_source_options *o,
                                    weft_error *err) {
     weft_status status = make_whole(s, o, err);
     if (!status) status = wf_exr_read_subsampled(s, s->whole, err);
-    exr_finish(&s->exr);
+    wf_exr_stream_end(&s->stream);
     s->exr = NULL;
     return status;
 }
@@ -156,13 +156,23 @@ static bool is_called_exr(const char *path) {
 /* What is called EXR and is none is not taken for something else: the name may be right, and
  * the file what is left of it. */
 static weft_status refuse_false_name(const char *path, weft_error *err) {
+    bool other;
     weft_status status = wf_refuse_kind(path, err);
-    return status ? status
-                  : wf_fail(err, WEFT_FAILED, "%s: not an EXR file, though it is called one%s",
-                            path,
-                            wf_begins_as_picture(path)
-                                ? ": it begins as a picture of another format does"
-                                : "");
+    if (!status) status = wf_begins_as_picture(path, &other, err);
+    return status
+               ? status
+               : wf_fail(err, WEFT_FAILED, "%s: not an EXR file, though it is called one%s",
+                         path, other ? ": it begins as a picture of another format does" : "");
+}
+
+static weft_status open_as_what_it_is(wf_subframe *s, const wf_source_options *options,
+                                      int part, weft_error *err) {
+    bool is_exr;
+    weft_status status = wf_is_exr(s->path, &is_exr, err);
+    if (status) return status;
+    if (is_exr) return open_exr(s, options, part, err);
+    return is_called_exr(s->path) ? refuse_false_name(s->path, err)
+                                  : open_whole(s, options, part, err);
 }
 
 weft_status wf_subframe_open(const char *path, int part, const wf_source_options *options,
@@ -174,12 +184,8 @@ weft_status wf_subframe_open(const char *path, int part, const wf_source_options
     if (s) s->path = strdup(path);
     if (!s || !s->path)
         status = wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
-    else if (wf_is_exr(path))
-        status = open_exr(s, options, part, err);
-    else if (is_called_exr(path))
-        status = refuse_false_name(path, err);
     else
-        status = open_whole(s, options, part, err);
+        status = open_as_what_it_is(s, options, part, err);
     if (!status)
         *out = s;
     else

@@ -39,8 +39,14 @@ typedef struct wf_subframe
     wf_subframe;                    /* an open picture: immutable after opening, any threads */
 typedef struct wf_reader wf_reader; /* buffers of one thread */
 
+/* Pixels with NaN or Inf: all, and those of them that had no finite neighbor to be made of. */
+typedef struct wf_nan_counts {
+    int64_t fixed, alone;
+} wf_nan_counts;
+
 typedef struct wf_source_counts {
-    int64_t chunks_decoded, chunks_reused, nan_fixed;
+    int64_t chunks_decoded, chunks_reused;
+    wf_nan_counts nan;
 } wf_source_counts;
 
 /* Opens path (part as in wf_subframe_ref) and checks everything that can be checked without

@@ -8,25 +8,28 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/base/infile.h"
 #include "convert/media/exr_times.h"
 #include "convert/read/choice/exr_parts.h"
-
-/* Enough for any picture; what a file really may cost is checked against its own length and
- * --max-memory. */
-#define MOST_PIXELS_A_SIDE (1 << 24)
 
 const char *wf_exr_trouble(exr_result_t result) {
     return exr_get_default_error_message(result);
 }
 
-bool wf_is_exr(const char *path) {
+weft_status wf_is_exr(const char *path, bool *is_exr, weft_error *err) {
     static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
     unsigned char head[4] = {0};
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    size_t got = fread(head, 1, sizeof head, file);
-    fclose(file);
-    return got == sizeof head && !memcmp(head, magic, sizeof magic);
+    size_t got;
+    weft_status status = wf_infile_head(path, head, sizeof head, &got, err);
+    *is_exr = got == sizeof head && !memcmp(head, magic, sizeof magic);
+    return status;
+}
+
+weft_status wf_exr_unread(const wf_subframe *s, int y, exr_result_t result, weft_error *err) {
+    weft_status status = wf_exr_stream_trouble(&s->stream, result, s->path, err);
+    return status ? status
+                  : wf_fail(err, WEFT_FAILED, "%s: the chunk at line %d cannot be read: %s",
+                            s->path, y - s->info.display.y0, wf_exr_trouble(result));
 }
 
 /* ---- Parts ---- */
@@ -36,10 +39,12 @@ static weft_status choose_picture(wf_subframe *s, const wf_source_options *o, in
                                   weft_error *err) {
     const wf_wish wish = {
         .layer = o->layer, .part = part < 0 ? o->part : NULL, .only_part = part};
-    char why[900] = "no memory for the names of its channels";
+    char why[900];
     wf_exr_parts parts = {0};
-    bool chosen = wf_exr_parts_find(s->exr, &parts) &&
-                  wf_pick_picture(parts.part, parts.count, &wish, &s->pick, why, sizeof why);
+    if (!wf_exr_parts_find(s->exr, &parts))
+        return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory for the names of its channels",
+                       s->path);
+    bool chosen = wf_pick_picture(parts.part, parts.count, &wish, &s->pick, why, sizeof why);
     if (chosen) s->part = s->pick.part;
     if (chosen && parts.count > 1)
         snprintf(s->part_name, sizeof s->part_name, "%s", parts.part[s->part].name);
@@ -100,7 +105,7 @@ static weft_status lay_out_channels(wf_subframe *s, weft_error *err) {
 /* A compression that is newer than OpenEXRCore, by its number in the file: the library says in
  * a message what that is, and goes on as if it were ZIP. */
 static weft_status refuse_compression(const wf_subframe *s, weft_error *err) {
-    unsigned number = s->unknown_compression;
+    unsigned number = s->stream.unknown_compression;
     const char *name = number == 10   ? "HTJ2K256, of OpenEXR 3.4"
                        : number == 11 ? "HTJ2K32, of OpenEXR 3.4"
                                       : "newer than those of OpenEXR 3.4, as Zstd is";
@@ -117,7 +122,7 @@ static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
     wf_exr_layout *l = &s->layout;
     exr_get_storage(s->exr, s->part, &storage);
     exr_get_compression(s->exr, s->part, &l->compression);
-    if (s->unknown_compression) return refuse_compression(s, err);
+    if (s->stream.unknown_compression) return refuse_compression(s, err);
     if (storage == EXR_STORAGE_TILED) {
         if (exr_get_tile_sizes(s->exr, s->part, 0, 0, &l->tile_width, &l->tile_height) ||
             l->tile_width < 1 || l->tile_height < 1)
@@ -139,8 +144,8 @@ static bool read_window(exr_attr_box2i_t from, wf_box *to) {
     const int64_t far = 1 << 30;
     int64_t width = (int64_t)from.max.x - from.min.x + 1,
             height = (int64_t)from.max.y - from.min.y + 1;
-    bool fine = width > 0 && height > 0 && width <= MOST_PIXELS_A_SIDE &&
-                height <= MOST_PIXELS_A_SIDE && from.min.x > -far && from.min.y > -far &&
+    bool fine = width > 0 && height > 0 && width <= WF_EXR_MOST_PIXELS_A_SIDE &&
+                height <= WF_EXR_MOST_PIXELS_A_SIDE && from.min.x > -far && from.min.y > -far &&
                 from.max.x < far && from.max.y < far;
     if (fine) *to = (wf_box){from.min.x, from.min.y, from.max.x + 1, from.max.y + 1};
     return fine;
@@ -223,6 +228,8 @@ static weft_status check_chunks(const wf_subframe *s, weft_error *err) {
                      : exr_read_scanline_chunk_info(s->exr, s->part,
                                                     end ? l->data.y1 - 1 : l->data.y0, &chunk);
     if (result == EXR_ERR_SUCCESS) return WEFT_OK;
+    weft_status status = wf_exr_stream_trouble(&s->stream, result, s->path, err);
+    if (status) return status;
     return wf_fail(err, WEFT_FAILED,
                    "%s: its table of chunks is not complete (%s): the file may still be being "
                    "written, or its writer was stopped; wait for it or render it again",
@@ -332,31 +339,17 @@ static void read_attributes(wf_subframe *s) {
 
 /* ---- Opening ---- */
 
-/* Keeps what OpenEXRCore says of a header. What it says of chunks is dropped, since many
- * threads read them and their status is enough. */
-static void listen(exr_const_context_t exr, exr_result_t code, const char *message) {
-    void *user = NULL;
-    (void)code;
-    if (!exr || exr_get_user_data(exr, &user) || !user) return;
-    wf_subframe *s = user;
-    if (!s->opened)
-        sscanf(message, "Attribute 'compression' (type 'compression'): Invalid value %u",
-               &s->unknown_compression);
-    if (!s->opened) snprintf(s->trouble, sizeof s->trouble, "%s", message);
-}
-
 static weft_status start_reading(wf_subframe *s, weft_error *err) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = listen;
-    how.user_data = s;
-    how.max_image_width = how.max_image_height = MOST_PIXELS_A_SIDE;
-    how.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    exr_result_t result = exr_start_read(&s->exr, s->path, &how);
+    exr_result_t result = wf_exr_stream_start(&s->stream, s->path);
+    s->exr = s->stream.exr;
     if (result == EXR_ERR_SUCCESS) return WEFT_OK;
+    weft_status status = wf_exr_stream_trouble(&s->stream, result, s->path, err);
+    if (status) return status;
+    const char *said = s->stream.said;
     return wf_fail(
         err, WEFT_FAILED,
         "%s: not a readable EXR file: %s; it may still be being written, or is damaged",
-        s->path, *s->trouble ? s->trouble : wf_exr_trouble(result));
+        s->path, *said ? said : wf_exr_trouble(result));
 }
 
 static weft_status read_header(wf_subframe *s, const wf_source_options *o, int part,
@@ -378,7 +371,6 @@ static weft_status read_header(wf_subframe *s, const wf_source_options *o, int p
 weft_status wf_exr_open(wf_subframe *s, const wf_source_options *o, int part, bool *by_chunks,
                         weft_error *err) {
     weft_status status = start_reading(s, err);
-    s->opened = true;
     if (!status) status = read_header(s, o, part, err);
     *by_chunks = !s->layout.subsampled && s->pick.kind != WF_PICTURE_LUMINANCE_CHROMA;
     return status;
@@ -393,7 +385,9 @@ static weft_status look_into(const char *path, wf_subframe **out, weft_error *er
         *out = NULL;
         return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to open it", path);
     }
-    return wf_is_exr(path) ? start_reading(s, err) : WEFT_OK;
+    bool is_exr;
+    weft_status status = wf_is_exr(path, &is_exr, err);
+    return status || !is_exr ? status : start_reading(s, err);
 }
 
 weft_status wf_source_layers(const char *path, wf_layer_fn *tell, void *user, weft_error *err) {

@@ -17,8 +17,12 @@ weft_status wf_exr_open(wf_subframe *subframe, const wf_source_options *options,
  * Rec. BT.601's half-band, cosited with even pixels and lines. */
 weft_status wf_exr_read_subsampled(const wf_subframe *subframe, float *planes, weft_error *err);
 
-/* Whether the file starts like an EXR. False too if it cannot be read. */
-bool wf_is_exr(const char *path);
+/* Whether the file starts like an EXR. WEFT_FAILED if it cannot be read. */
+weft_status wf_is_exr(const char *path, bool *is_exr, weft_error *err);
+
+/* Fails: why the chunk at line y of the data window could not be read. */
+weft_status wf_exr_unread(const wf_subframe *subframe, int y, exr_result_t result,
+                          weft_error *err);
 
 /* What OpenEXRCore's status means, for people. */
 const char *wf_exr_trouble(exr_result_t result);

@@ -87,7 +87,7 @@ void wf_subframe_close(wf_subframe *s) {
     if (s->maker) s->maker->close(s->picture);
     for (int i = 0; i < s->layers; i++) wf_subframe_close(s->layer[i].picture);
     free(s->layer);
-    if (s->exr) exr_finish(&s->exr);
+    wf_exr_stream_end(&s->stream);
     if (s->owns_decode) s->decode.free(s->decode.self);
     free(s->whole);
     free(s->path);

@@ -3,6 +3,7 @@
 
 #include <openexr.h>
 
+#include "convert/read/exr_stream.h"
 #include "convert/read/choice/pick.h"
 #include "convert/read/source.h"
 
@@ -37,15 +38,13 @@ struct wf_subframe {
     bool owns_decode;    /* and frees it */
     wf_image_info info;
     wf_exr_layout layout;
-    exr_context_t exr;            /* NULL: read whole, through OpenImageIO */
-    bool opened;                  /* the header has been read */
-    char trouble[256];            /* what was wrong with it */
-    unsigned unknown_compression; /* that it names, and the library does not know; 0: none */
-    const wf_row_maker *maker;    /* NULL: it is a file */
-    void *picture;                /* the maker's */
-    wf_layer_over *layer;         /* [layers] of one that is composed, bottom first */
-    int layers;                   /* 0: it is not */
-    float *whole;                 /* [channels][height][width] of the data window */
+    wf_exr_stream stream;
+    exr_context_t exr;         /* of the stream; NULL: read whole, through OpenImageIO */
+    const wf_row_maker *maker; /* NULL: it is a file */
+    void *picture;             /* the maker's */
+    wf_layer_over *layer;      /* [layers] of one that is composed, bottom first */
+    int layers;                /* 0: it is not */
+    float *whole;              /* [channels][height][width] of the data window */
 };
 
 /* Settles what the picture's colors are taken for, by info.colors, and how they are decoded. */

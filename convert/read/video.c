@@ -9,6 +9,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "convert/base/infile.h"
 #include "convert/base/names.h"
 #include "convert/media/formats.h"
 #include "convert/media/structure/structure.h"
@@ -118,12 +119,27 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
 
 /* ---- Opening ---- */
 
-static bool is_y4m(const char *path) {
+static weft_status is_y4m(const char *path, bool *is, weft_error *err) {
     char head[sizeof WF_Y4M_MAGIC] = "";
-    FILE *file = fopen(path, "rb");
-    size_t got = file ? fread(head, 1, sizeof head - 1, file) : 0;
-    if (file) fclose(file);
-    return got == sizeof head - 1 && !strcmp(head, WF_Y4M_MAGIC);
+    size_t got;
+    weft_status status = wf_infile_head(path, head, sizeof head - 1, &got, err);
+    *is = got == sizeof head - 1 && !strcmp(head, WF_Y4M_MAGIC);
+    return status;
+}
+
+/* The kind of a file by how it begins, and where that says nothing by its name. */
+static weft_status look_into(const char *path, const wf_video_kind **kind, weft_error *err) {
+    bool y4m, animated = false, picture = false;
+    weft_status status = is_y4m(path, &y4m, err);
+    if (!status) status = wf_is_animated_png(path, &animated, err);
+    if (!status) status = wf_begins_as_picture(path, &picture, err);
+    bool stills = wf_name_ends_in(path, ".mjpeg") || wf_name_ends_in(path, ".mjpg");
+    bool named = wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif");
+    if (y4m)
+        *kind = &wf_video_y4m;
+    else if (!animated && ((picture && !stills) || named))
+        *kind = &wf_video_pictures;
+    return status;
 }
 
 static bool is_pipe(const char *path) {
@@ -147,20 +163,19 @@ static weft_status find_kind(const char *path, const wf_video_kind **kind, weft_
         *kind = &wf_video_raw;
     else if (!about.st_size)
         return wf_fail(err, WEFT_FAILED, "%s: the file is empty", path);
-    else if (is_y4m(path))
-        *kind = &wf_video_y4m;
-    else if (wf_is_animated_png(path))
-        *kind = &wf_video_libav;
-    else if ((wf_begins_as_picture(path) && !wf_name_ends_in(path, ".mjpeg") &&
-              !wf_name_ends_in(path, ".mjpg")) ||
-             (wf_name_is_picture(wf_base_name(path)) && !wf_name_ends_in(path, ".gif")))
-        *kind = &wf_video_pictures;
+    else
+        return look_into(path, kind, err);
     return WEFT_OK;
 }
 
-bool wf_video_is(const char *path) {
+weft_status wf_video_is(const char *path, bool *is, weft_error *err) {
     const wf_video_kind *kind;
-    return !find_kind(path, &kind, NULL) && (kind == &wf_video_y4m || kind == &wf_video_libav);
+    struct stat about;
+    *is = false;
+    if (!is_pipe(path) && (stat(path, &about) || !about.st_size)) return WEFT_OK;
+    weft_status status = find_kind(path, &kind, err);
+    *is = !status && (kind == &wf_video_y4m || kind == &wf_video_libav);
+    return status;
 }
 
 static weft_status make_planes(wf_video *v, weft_error *err) {
@@ -184,6 +199,7 @@ static weft_status open_pipe(wf_video *v, weft_error *err) {
     v->pipe = strcmp(v->path, "-") ? fopen(v->path, "rb") : stdin;
     if (!v->pipe) return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(errno));
     int first = getc(v->pipe);
+    if (ferror(v->pipe)) return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(errno));
     if (first == EOF) return wf_fail(err, WEFT_FAILED, "%s: the pipe is empty", v->path);
     ungetc(first, v->pipe);
     v->kind = first == WF_Y4M_MAGIC[0] ? &wf_video_y4m : &wf_video_libav;
@@ -258,8 +274,9 @@ weft_status wf_video_check_whole(const wf_video *video, weft_error *err) {
     char container[sizeof video->info.format];
     size_t first = strcspn(video->info.format, ", ");
     snprintf(container, sizeof container, "%.*s", (int)first, video->info.format);
-    if (video->pipe || wf_structure_read(video->path, container, &structure, NULL))
-        return WEFT_OK;
+    if (video->pipe) return WEFT_OK;
+    weft_status status = wf_structure_read(video->path, container, &structure, err);
+    if (status) return status;
     if (!structure.known || !*structure.missing) return WEFT_OK;
     const wf_video_info *info = &video->info;
     return wf_fail(err, WEFT_FAILED,

@@ -48,7 +48,8 @@ void wf_video_plane_size(const wf_video *video, int p, int *width_px, int *lines
 void wf_video_close(wf_video *video); /* NULL is fine */
 
 /* Whether the name is that of a video, which is not a picture or a sequence of them: standard
- * input or another pipe, Y4M, or a file for libav. */
-bool wf_video_is(const char *path);
+ * input or another pipe, Y4M, or a file for libav. WEFT_FAILED if a file
+ * that is there cannot be read. */
+weft_status wf_video_is(const char *path, bool *is, weft_error *err);
 
 #endif

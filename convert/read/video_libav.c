@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/base/infile.h"
 #include "convert/base/module.h"
 #include "convert/media/libav/libav.h"
 #include "convert/media/metadata_mxf.h"
@@ -11,10 +12,9 @@
 /* Whether it begins as files of QuickTime and MP4 do. */
 static bool begins_with_brand(const char *path) {
     char head[8] = "";
-    FILE *file = fopen(path, "rb");
-    bool read = file && fread(head, sizeof head, 1, file) == 1;
-    if (file) fclose(file);
-    return read && !memcmp(head + 4, "ftyp", 4);
+    size_t got;
+    return !wf_infile_head(path, head, sizeof head, &got, NULL) && got == sizeof head &&
+           !memcmp(head + 4, "ftyp", 4);
 }
 
 /* libav opens no QuickTime and MP4 without their index, which most programs write last. */
@@ -28,16 +28,19 @@ static weft_status tell_cut_off(const wf_video *v, weft_status status, weft_erro
 }
 
 /* libav has no order of the fields that MXF calls mixed. */
-static void label_mixed_fields(const wf_video *v, wf_video_label *label) {
+static weft_status label_mixed_fields(const wf_video *v, wf_video_label *label,
+                                      weft_error *err) {
     wf_metadata metadata = {.frame_layout = -1, .dominance = -1, .siting = -1};
-    if (label->scan_known || v->pipe || strncmp(v->info.format, "mxf ", 4)) return;
-    FILE *file = fopen(v->path, "rbe");
-    if (!file) return;
+    if (label->scan_known || v->pipe || strncmp(v->info.format, "mxf ", 4)) return WEFT_OK;
+    FILE *file;
+    weft_status status = wf_infile_open(v->path, &file, err);
+    if (status) return status;
     wf_metadata_mxf(file, &metadata);
-    fclose(file);
+    status = wf_infile_close(file, v->path, WEFT_OK, err);
     wf_metadata_mxf_scan(&metadata);
     label->scan_known = label->interlaced = metadata.scan_known;
     label->top_first = metadata.top_first;
+    return status;
 }
 
 /* The module's kind replaces this one, and has the video from here on. */
@@ -54,7 +57,7 @@ static weft_status libav_open(wf_video *v, wf_video_label *label, weft_error *er
     memcpy(&kind, &symbol, sizeof kind);
     v->kind = kind();
     status = v->kind->open(v, label, err);
-    if (!status) label_mixed_fields(v, label);
+    if (!status) status = label_mixed_fields(v, label, err);
     return status == WEFT_FAILED ? tell_cut_off(v, status, err) : status;
 }
 

@@ -82,7 +82,9 @@ static weft_status pictures_open(wf_video *v, wf_video_label *label, weft_error 
     if (!status) status = look_at_first(v, err);
     if (!status) status = wf_reader_new(&p->source, &p->reader, err);
     if (status) return status;
-    bool linear = wf_is_exr(p->sequence.refs[0].path);
+    bool linear;
+    status = wf_is_exr(p->sequence.refs[0].path, &linear, err);
+    if (status) return status;
     wf_video_info *info = &v->info;
     snprintf(info->format, sizeof info->format, "%s", p->first.format);
     info->width_px = p->first.display.x1 - p->first.display.x0;

@@ -30,6 +30,11 @@ static weft_status failed(const wf_video *v, weft_error *err) {
     return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(errno));
 }
 
+/* Of a stream's error, of which errno may say nothing any more. */
+static weft_status unread(const wf_video *v, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED, "%s: %s", v->path, strerror(EIO));
+}
+
 static weft_status open_file(wf_video *v, weft_error *err) {
     stream *s = v->state = calloc(1, sizeof *s);
     if (!s) return wf_video_no_memory(v, err);
@@ -69,7 +74,7 @@ static weft_status read_bytes(wf_video *v, weft_error *err) {
     stream *s = v->state;
     size_t got = fread(s->bytes, 1, s->frame_bytes, s->file);
     if (got == s->frame_bytes) return WEFT_OK;
-    if (ferror(s->file)) return failed(v, err);
+    if (ferror(s->file)) return unread(v, err);
     return wf_fail(err, WEFT_FAILED,
                    "%s: the file ends within frame %" PRId64
                    " (%.3f s), after %zu of its %zu bytes; write it again",
@@ -81,8 +86,10 @@ static weft_status read_bytes(wf_video *v, weft_error *err) {
 static weft_status read_header(wf_video *v, weft_error *err) {
     stream *s = v->state;
     char line[WF_Y4M_LINE];
-    bool whole = fgets(line, sizeof line, s->file) && strchr(line, '\n') &&
-                 !strncmp(line, WF_Y4M_MAGIC " ", sizeof WF_Y4M_MAGIC);
+    bool told = fgets(line, sizeof line, s->file);
+    if (ferror(s->file)) return unread(v, err);
+    bool whole =
+        told && strchr(line, '\n') && !strncmp(line, WF_Y4M_MAGIC " ", sizeof WF_Y4M_MAGIC);
     if (whole) *strchr(line, '\n') = '\0';
     if (!whole || !wf_y4m_parse(line, &s->header))
         return wf_fail(
@@ -162,6 +169,7 @@ static weft_status y4m_open(wf_video *v, wf_video_label *label, weft_error *err)
     if (status) return status;
     s->first_byte = ftello(s->file);
     info->frames = count_y4m(v);
+    if (ferror(s->file)) return unread(v, err);
     *label =
         (wf_video_label){.scan_known = h->order && strchr("ptb", h->order),
                          .interlaced = h->order && strchr("tbm", h->order), /* m: some are */
@@ -194,7 +202,7 @@ static weft_status y4m_mark(wf_video *v, bool *more, weft_error *err) {
     stream *s = v->state;
     char line[WF_Y4M_LINE];
     *more = fgets(line, sizeof line, s->file) != NULL;
-    if (!*more) return ferror(s->file) ? failed(v, err) : WEFT_OK;
+    if (!*more) return ferror(s->file) ? unread(v, err) : WEFT_OK;
     if (!strncmp(line, "FRAME", 5) && strchr(line, '\n')) return WEFT_OK;
     return wf_fail(err, WEFT_FAILED,
                    "%s: frame %" PRId64

@@ -104,9 +104,9 @@ static weft_status make_all(wf_run *run, weft_error *err) {
 /* Decides all that can be decided before a pixel is read. An output of no kind is told before
  * files are looked at. */
 static weft_status settle(wf_run *run, weft_error *err) {
-    run->kind = wf_source_for(run->job);
     if (!wf_output_for(run->job->output, run->job->codec, err).kind) return WEFT_USAGE;
-    weft_status status = wf_source_check(run->kind, run->job, err);
+    weft_status status = wf_source_for(run->job, &run->kind, err);
+    if (!status) status = wf_source_check(run->kind, run->job, err);
     if (!status) status = run->kind->open(run, err);
     if (!status) status = wf_setup_sound(run->job, &run->setup, &run->report->taken, err);
     if (!status) status = wf_setup_output(run->job, &run->setup, err);

@@ -54,8 +54,9 @@ typedef struct wf_summing {
 typedef struct wf_source_kind {
     const char *name; /* for people */
 
-    /* Whether the job's input is of this kind, from its command, names and headers. */
-    bool (*takes)(const weft_job *job);
+    /* Whether the job's input is of this kind, from its command, names and headers. An error:
+     * they cannot be read. */
+    weft_status (*takes)(const weft_job *job, bool *takes, weft_error *err);
     /* Finds out what must be known before the output is settled, which is the space that its
      * colors are in (setup.scene_space). */
     weft_status (*open)(wf_run *run, weft_error *err);
@@ -84,8 +85,8 @@ typedef struct wf_source_kind {
     int64_t (*samples_a_unit)(const wf_run *run);
 } wf_source_kind;
 
-/* The first kind of the table (sources.c) that takes the job; never NULL. */
-const wf_source_kind *wf_source_for(const weft_job *job);
+/* The first kind of the table (sources.c) that takes the job. */
+weft_status wf_source_for(const weft_job *job, const wf_source_kind **kind, weft_error *err);
 
 /* WEFT_USAGE where the job has options of subframes that this kind would pass over. */
 weft_status wf_source_check(const wf_source_kind *kind, const weft_job *job, weft_error *err);

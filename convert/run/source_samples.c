@@ -25,17 +25,16 @@ static const char *first_path(const wf_sequence *sequence) {
     return NULL;
 }
 
-static bool takes(const weft_job *job) {
+static weft_status takes(const weft_job *job, bool *takes, weft_error *err) {
     wf_sequence sequence = {0};
-    weft_error ignored;
-    bool deep = false;
-    if (job->command != WF_CONVERT) return false;
-    if (!wf_sequence_expand(job->inputs, job->input_count, job->frames, &sequence, &ignored)) {
-        const char *path = first_path(&sequence);
-        deep = path && wf_deep_is(path);
-    }
+    *takes = false;
+    if (job->command != WF_CONVERT) return WEFT_OK;
+    weft_status status =
+        wf_sequence_expand(job->inputs, job->input_count, job->frames, &sequence, err);
+    const char *path = status ? NULL : first_path(&sequence);
+    if (path) status = wf_deep_is(path, takes, err);
     wf_sequence_free(&sequence);
-    return deep;
+    return status;
 }
 
 /* The first file says of itself what all of them are. */

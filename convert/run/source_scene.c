@@ -12,8 +12,10 @@
 #include "convert/run/gathering.h"
 #include "tracer/scene/load.h"
 
-static bool takes(const weft_job *job) {
-    return job->command != WF_CONVERT;
+static weft_status takes(const weft_job *job, bool *takes, weft_error *err) {
+    (void)err;
+    *takes = job->command != WF_CONVERT;
+    return WEFT_OK;
 }
 
 /* ---- The scene ---- */

@@ -50,8 +50,10 @@ typedef struct video_source {
     weft_error cut; /* what the file's structure says of its end, where that may be missing */
 } video_source;
 
-static bool takes(const weft_job *job) {
-    return job->command == WF_CONVERT && job->input_count && wf_video_is(job->inputs[0]);
+static weft_status takes(const weft_job *job, bool *takes, weft_error *err) {
+    *takes = false;
+    if (job->command != WF_CONVERT || !job->input_count) return WEFT_OK;
+    return wf_video_is(job->inputs[0], takes, err);
 }
 
 static void close_input(wf_run *run) {

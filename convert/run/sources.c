@@ -9,10 +9,14 @@ static const wf_source_kind *const kinds[] = {
     &wf_source_subframes,
 };
 
-const wf_source_kind *wf_source_for(const weft_job *job) {
-    size_t n = 0, last = sizeof kinds / sizeof *kinds - 1;
-    while (n < last && !kinds[n]->takes(job)) n++;
-    return kinds[n];
+weft_status wf_source_for(const weft_job *job, const wf_source_kind **kind, weft_error *err) {
+    bool takes = false;
+    weft_status status = WEFT_OK;
+    for (size_t n = 0; !status && !takes && n < sizeof kinds / sizeof *kinds; n++) {
+        *kind = kinds[n];
+        status = kinds[n]->takes(job, &takes, err);
+    }
+    return status;
 }
 
 weft_status wf_source_check(const wf_source_kind *kind, const weft_job *job, weft_error *err) {

@@ -5,6 +5,7 @@
 #include "convert/run/dry_run.h"
 #include "convert/run/source_scene.h"
 #include "convert/run/trace.h"
+#include "convert/write/sink.h"
 
 typedef struct subframes {
     wf_run *run;
@@ -108,7 +109,7 @@ static weft_status trace_all(subframes *f, weft_error *err) {
     const weft_job *job = f->run->job;
     const wf_setup *s = &f->run->setup;
     const wf_sink_ops *ops = s->output.ops;
-    weft_status status = ops->open(&s->output_options, &f->sink, err);
+    weft_status status = wf_output_open(s->output, &s->output_options, &f->sink, err);
     for (int64_t k = s->first_frame; !status && k < s->end_frame; k++)
         if (!job->resume || !wf_output_present(s->output.kind, job->output, k))
             status = trace_subframe(f, k, err);

@@ -42,7 +42,10 @@ static weft_status find_video(wf_sound *s, weft_error *err) {
     struct stat about;
     if (job->command != WF_CONVERT)
         return wf_fail(err, WEFT_USAGE, "--audio copy: a scene has no sound; " INSTEAD);
-    if (!wf_video_is(input))
+    bool video;
+    weft_status status = wf_video_is(input, &video, err);
+    if (status) return status;
+    if (!video)
         return wf_fail(err, WEFT_USAGE, "--audio copy: %.500s has no sound; " INSTEAD, input);
     if (!strcmp(input, "-") || (!stat(input, &about) && !S_ISREG(about.st_mode)))
         return wf_fail(
@@ -186,17 +189,18 @@ const char *wf_sound_text(const wf_sound *s, char text[WF_SOUND_TEXT]) {
     return text;
 }
 
-const char *wf_sound_in(const char *path, char text[WF_SOUND_TEXT]) {
+weft_status wf_sound_in(const char *path, char text[WF_SOUND_TEXT], weft_error *err) {
     wf_sound s = {.path = (char *)path};
     *text = '\0';
-    if (find_reader(&s, NULL) || s.reader->open(path, true, &s.state, &s.info, NULL))
-        return text;
+    weft_status status = find_reader(&s, err);
+    if (!status) status = s.reader->open(path, true, &s.state, &s.info, err);
+    if (status) return status;
     s.reader->close(s.state);
     if (s.info.channels)
         put_channels(&s.info, text, WF_SOUND_TEXT);
     else
         snprintf(text, WF_SOUND_TEXT, "none");
-    return text;
+    return WEFT_OK;
 }
 
 /* ---- Samples ---- */

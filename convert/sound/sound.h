@@ -14,9 +14,9 @@ weft_status wf_sound_open(const weft_job *job, const wf_delivery *delivery, wf_s
                           weft_error *err);
 
 /* What sound a file holds, for people: "2 channels (pcm_s24le, 48000 Hz, 1 stream)" or "none";
- * "" where that cannot be found out. Returns text. */
+ * "" with an error where that cannot be found out. */
 #define WF_SOUND_TEXT 128
-const char *wf_sound_in(const char *path, char text[WF_SOUND_TEXT]);
+weft_status wf_sound_in(const char *path, char text[WF_SOUND_TEXT], weft_error *err);
 
 /* What a sink is told of it; it borrows the sound. */
 wf_sound_feed wf_sound_feed_of(wf_sound *sound);

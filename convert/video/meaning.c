@@ -96,10 +96,14 @@ static void find_colors(wf_meaning *m) {
 }
 
 /* libav 5.1 does not tell all that a PNG says. */
-static wf_file_colors colors_of_png(const char *path) {
+static weft_status read_png(const char *path, wf_file_colors *colors, weft_error *err) {
     wf_color_said said = {0};
-    wf_read_color_tags(path, "png", &said);
-    return wf_file_colors_of(&said);
+    bool animated;
+    weft_status status = wf_is_animated_png(path, &animated, err);
+    if (status || !animated) return status;
+    status = wf_read_color_tags(path, "png", &said, err);
+    *colors = wf_file_colors_of(&said);
+    return status;
 }
 
 weft_status wf_meaning_of(const wf_video_info *info, const char *path, wf_meaning *out,
@@ -107,8 +111,8 @@ weft_status wf_meaning_of(const wf_video_info *info, const char *path, wf_meanin
     *out = (wf_meaning){.ycbcr = info->layout == WF_YCBCR};
     fill_in(out, info);
     find_colors(out);
-    if (info->tags.pictures && wf_is_animated_png(path)) out->colors = colors_of_png(path);
-    if (find_matrix(out)) return WEFT_OK;
+    weft_status status = info->tags.pictures ? read_png(path, &out->colors, err) : WEFT_OK;
+    if (status || find_matrix(out)) return status;
     return wf_fail(
         err, WEFT_FAILED,
         "%s: its matrix is number %d of Rec. ITU-T H.273, which is not read; convert "

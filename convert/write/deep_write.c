@@ -1,8 +1,10 @@
 /* Writes sample buffers: deep scanline EXR, a line a chunk, deflated here by any thread. */
 #include "convert/write/deep_write.h"
 
+#include <errno.h>
 #include <libdeflate.h>
 #include <openexr.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,7 +17,7 @@
 struct wf_deep_writer {
     wf_outplace place;
     int fd;
-    bool failed;
+    int code; /* errno of the first write that failed; 0: none did */
     exr_context_t exr;
 };
 
@@ -75,12 +77,20 @@ static int64_t put_bytes(exr_const_context_t exr, void *user, const void *data, 
                          uint64_t at, exr_stream_error_func_ptr_t error) {
     wf_deep_writer *w = user;
     (void)exr, (void)error;
-    for (uint64_t done = 0; done < bytes && !w->failed;) {
+    for (uint64_t done = 0; done < bytes && !w->code;) {
         ssize_t n = pwrite(w->fd, (const char *)data + done, bytes - done, (off_t)(at + done));
-        w->failed = n <= 0;
+        if (n < 0 && errno != EINTR) w->code = errno;
         done += n > 0 ? (uint64_t)n : 0;
     }
-    return w->failed ? -1 : (int64_t)bytes;
+    return w->code ? -1 : (int64_t)bytes;
+}
+
+/* Where neither the system nor memory is at fault, OpenEXRCore is. */
+static weft_status fail(const wf_deep_writer *w, const char *what, weft_error *err) {
+    if (w->code)
+        return wf_fail(err, WEFT_FAILED, "%s: %s cannot be written: %s", w->place.path, what,
+                       strerror(w->code));
+    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to write %s", w->place.path, what);
 }
 
 static bool set_text(exr_context_t exr, const char *name, const char *text) {
@@ -117,7 +127,7 @@ weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
     weft_status status = wf_outplace_open(path, overwrite, &w->place, &w->fd, err);
     if (!status && (exr_start_write(&w->exr, path, EXR_WRITE_FILE_DIRECTLY, &how) ||
                     !describe(w, raster, color_space, alpha)))
-        status = wf_fail(err, WEFT_FAILED, "%s: its header cannot be written", path);
+        status = fail(w, "its header", err);
     if (status) {
         wf_deep_abandon(w);
         return status;
@@ -131,17 +141,18 @@ weft_status wf_deep_write(wf_deep_writer *w, int y, const wf_deep_packed *line,
     exr_result_t result =
         exr_write_deep_scanline_chunk(w->exr, 0, y, line->data, line->data_bytes,
                                       line->unpacked_bytes, line->table, line->table_bytes);
-    if (result == EXR_ERR_SUCCESS && !w->failed) return WEFT_OK;
-    return wf_fail(err, WEFT_FAILED, "%s: line %d cannot be written; is the disk full?",
-                   w->place.path, y);
+    char what[32];
+    if (result == EXR_ERR_SUCCESS && !w->code) return WEFT_OK;
+    snprintf(what, sizeof what, "line %d", y);
+    return fail(w, what, err);
 }
 
 weft_status wf_deep_commit(wf_deep_writer *w, weft_error *err) {
     exr_result_t result = exr_finish(&w->exr);
     weft_status status = WEFT_OK;
-    if (result != EXR_ERR_SUCCESS || w->failed || fsync(w->fd))
-        status = wf_fail(err, WEFT_FAILED, "%s: it cannot be finished; is the disk full?",
-                         w->place.path);
+    if (!w->code && fsync(w->fd)) w->code = errno;
+    if (result != EXR_ERR_SUCCESS || w->code)
+        status = fail(w, "its end", err);
     else {
         status = wf_outplace_publish(&w->place, w->fd, err);
         w->fd = -1;

@@ -7,6 +7,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "convert/base/outfile.h"
 #include "convert/base/pattern.h"
 #include "convert/job/delivery.h"
 #include "convert/write/sink_kinds.h"
@@ -96,6 +97,14 @@ wf_output wf_output_for(const char *name, const char *codec, weft_error *err) {
             "%s, out.mov, out.mp4, out.mxf, out.mkv, and - for Y4M on standard output",
             name, there);
     return (wf_output){0};
+}
+
+weft_status wf_output_open(wf_output output, const wf_output_options *options, wf_sink **out,
+                           weft_error *err) {
+    const char *file = wf_output_file(output.kind, options->output);
+    weft_status status =
+        output.kind->sequence && file ? wf_outfile_check(file, true, err) : WEFT_OK;
+    return status ? status : output.ops->open(options, out, err);
 }
 
 /* ---- What is there ---- */

@@ -12,6 +12,11 @@ wf_output wf_output_at(size_t index);
  * {NULL, NULL} with an error that lists what there is. */
 wf_output wf_output_for(const char *name, const char *codec, weft_error *err);
 
+/* Opens the output. Of a sequence, whose files are opened as they are written, that one can be
+ * written there is tried first. */
+weft_status wf_output_open(wf_output output, const wf_output_options *options, wf_sink **out,
+                           weft_error *err);
+
 /* How many bytes so many frames will take; {0} where the output cannot tell. */
 wf_sink_size wf_output_size(const wf_output *output, const wf_output_options *options,
                             int64_t frames);

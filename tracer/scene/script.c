@@ -47,7 +47,7 @@ char *wf_script_read(const char *path, size_t most, size_t *size, char *why, siz
     if (file) text = malloc((size_t)info.st_size + 1);
     if (text) *size = fread(text, 1, (size_t)info.st_size, file);
     if (!text || ferror(file)) {
-        snprintf(why, why_size, "%s: %s", path, file ? "it cannot be read" : strerror(errno));
+        snprintf(why, why_size, "%s: %s", path, strerror(errno));
         free(text);
         text = NULL;
     }

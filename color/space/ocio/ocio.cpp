@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -341,6 +342,8 @@ template <typename Work> bool guarded(const char *file, char *why, size_t why_si
     try {
         work();
         return true;
+    } catch (const std::bad_alloc &) {
+        explain(file, "out of memory", why, why_size);
     } catch (const std::exception &failure) {
         explain(file, failure.what(), why, why_size);
     } catch (...) {

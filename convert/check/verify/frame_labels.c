@@ -4,10 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "convert/base/infile.h"
 #include "convert/base/names.h"
 #include "convert/job/timecode.h"
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
+
+typedef struct frame_label {
+    wf_timecode label;
+    bool there;
+    int interlace; /* of DPX; -1: not said */
+} frame_label;
 
 /* ---- DPX ---- */
 
@@ -31,41 +38,44 @@ static bool read_word(uint32_t word, wf_rational rate, wf_timecode *out) {
     return true;
 }
 
-static bool read_dpx(const char *path, wf_rational rate, wf_timecode *label, int *interlace) {
-    uint8_t magic[4] = {0}, tv[9];
-    FILE *file = fopen(path, "rbe");
-    bool whole = file && fread(magic, sizeof magic, 1, file) == 1 &&
-                 !fseek(file, TELEVISION_AT, SEEK_SET) && fread(tv, sizeof tv, 1, file) == 1;
-    if (file) fclose(file);
-    if (!whole) return false;
-    bool little = magic[0] == 'X';
+static weft_status read_dpx(const char *path, wf_rational rate, frame_label *out,
+                            weft_error *err) {
+    uint8_t head[TELEVISION_AT + 9] = {0};
+    const uint8_t *tv = head + TELEVISION_AT;
+    size_t got;
+    weft_status status = wf_infile_head(path, head, sizeof head, &got, err);
+    if (status || got < sizeof head) return status;
+    bool little = head[0] == 'X';
     uint32_t word = 0;
     for (int i = 0; i < 4; i++) word = word << 8 | tv[little ? 3 - i : i];
-    *interlace = tv[8] <= 1 ? tv[8] : -1;
-    return read_word(word, rate, label);
+    out->interlace = tv[8] <= 1 ? tv[8] : -1;
+    out->there = read_word(word, rate, &out->label);
+    return WEFT_OK;
 }
 
 /* ---- EXR ---- */
 
-static bool read_exr(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *label) {
+static weft_status read_exr(const wf_subframe_ref *ref, wf_rational rate, frame_label *out,
+                            weft_error *err) {
     const wf_source_options options = {.max_memory_bytes = (size_t)1 << 30};
     wf_subframe *subframe;
-    if (wf_subframe_open(ref->path, ref->part, &options, &subframe, NULL)) return false;
+    weft_status status = wf_subframe_open(ref->path, ref->part, &options, &subframe, err);
+    if (status) return status;
     const wf_image_info *info = wf_subframe_info(subframe);
-    bool has = wf_parse_timecode(info->timecode, label);
-    if (has && wf_timecode_together(rate) == 2)
-        label->frames = 2 * label->frames + info->timecode_mark;
+    out->there = wf_parse_timecode(info->timecode, &out->label);
+    if (out->there && wf_timecode_together(rate) == 2)
+        out->label.frames = 2 * out->label.frames + info->timecode_mark;
     wf_subframe_close(subframe);
-    return has;
+    return WEFT_OK;
 }
 
 /* ---- The sequence ---- */
 
-static bool read_label(const wf_subframe_ref *ref, wf_rational rate, wf_timecode *label,
-                       int *interlace) {
-    *interlace = -1;
-    if (wf_name_ends_in(ref->path, ".dpx")) return read_dpx(ref->path, rate, label, interlace);
-    return wf_name_ends_in(ref->path, ".exr") && read_exr(ref, rate, label);
+static weft_status read_label(const wf_subframe_ref *ref, wf_rational rate, frame_label *out,
+                              weft_error *err) {
+    *out = (frame_label){.interlace = -1};
+    if (wf_name_ends_in(ref->path, ".dpx")) return read_dpx(ref->path, rate, out, err);
+    return wf_name_ends_in(ref->path, ".exr") ? read_exr(ref, rate, out, err) : WEFT_OK;
 }
 
 static bool same_label(const wf_timecode *a, const wf_timecode *b) {
@@ -95,14 +105,14 @@ weft_status wf_frame_labels_read(const char *path, wf_rational rate, int fields,
     weft_status status = wf_sequence_expand(&name, 1, NULL, &sequence, err);
     int64_t first = -1, apart = sequence.stepped ? sequence.number_step.num : 1;
     for (size_t i = 0; !status && i < sequence.count; i++) {
-        wf_timecode label;
-        int interlace;
+        frame_label found;
         if (!sequence.refs[i].path) continue;
-        bool has = read_label(&sequence.refs[i], rate, &label, &interlace);
-        if (has && first < 0) first = (int64_t)i;
-        if (has) add_label(out, &label, rate, ((int64_t)i - first) / fields * apart);
-        if (!out->files++) out->interlace = interlace;
-        if (interlace != out->interlace) out->interlace = -1;
+        status = read_label(&sequence.refs[i], rate, &found, err);
+        if (found.there && first < 0) first = (int64_t)i;
+        if (found.there)
+            add_label(out, &found.label, rate, ((int64_t)i - first) / fields * apart);
+        if (!out->files++) out->interlace = found.interlace;
+        if (found.interlace != out->interlace) out->interlace = -1;
     }
     wf_sequence_free(&sequence);
     return status;

@@ -6,6 +6,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "convert/base/fail.h"
+#include "convert/base/infile.h"
+
 typedef struct identity {
     const char *path;
     wf_structure structure;
@@ -31,18 +34,29 @@ static bool is_file(const char *path) {
     return !stat(path, &about) && S_ISREG(about.st_mode);
 }
 
-wf_identities *wf_identities_read(const char *const *paths, size_t count) {
-    wf_identities *all = calloc(1, sizeof *all + count * sizeof(identity));
-    if (!all) return NULL;
+static weft_status read_one(identity *one, weft_error *err) {
+    FILE *file;
+    weft_status status = wf_infile_open(one->path, &file, err);
+    if (status) return status;
+    const char *container = container_of(file);
+    if (container) wf_structure_of(file, container, &one->structure);
+    return wf_infile_close(file, one->path, WEFT_OK, err);
+}
+
+weft_status wf_identities_read(const char *const *paths, size_t count, wf_identities **out,
+                               weft_error *err) {
+    wf_identities *all = *out = calloc(1, sizeof *all + count * sizeof(identity));
+    weft_status status = WEFT_OK;
+    if (!all) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     all->count = count;
     for (size_t i = 0; i < count; i++) {
         all->of[i].path = paths[i];
-        FILE *file = is_file(paths[i]) ? fopen(paths[i], "rbe") : NULL;
-        const char *container = file ? container_of(file) : NULL;
-        if (container) wf_structure_of(file, container, &all->of[i].structure);
-        if (file) fclose(file);
+        if (!status && is_file(paths[i])) status = read_one(&all->of[i], err);
     }
-    return all;
+    if (!status) return WEFT_OK;
+    free(all);
+    *out = NULL;
+    return status;
 }
 
 void wf_identities_free(wf_identities *identities) {
@@ -60,12 +74,15 @@ static bool have_same_bytes(FILE *a, FILE *b) {
 }
 
 /* A copy is the same material. */
-static bool are_alike(const char *path, const char *other) {
-    FILE *a = fopen(path, "rbe"), *b = fopen(other, "rbe");
-    bool alike = a && b && have_same_bytes(a, b);
-    if (a) fclose(a);
-    if (b) fclose(b);
-    return alike;
+static weft_status compare(const char *path, const char *other, bool *alike, weft_error *err) {
+    FILE *a, *b;
+    weft_status status = wf_infile_open(path, &a, err);
+    if (status) return status;
+    status = wf_infile_open(other, &b, err);
+    if (status) return wf_infile_close(a, path, status, err);
+    *alike = have_same_bytes(a, b);
+    status = wf_infile_close(a, path, WEFT_OK, err);
+    return wf_infile_close(b, other, status, err);
 }
 
 /* Files of OP-Atom share the material package that plays them together, and have file packages
@@ -80,11 +97,17 @@ static bool share(const wf_structure *a, const wf_structure *b) {
     return false;
 }
 
-const char *wf_identities_shared(const wf_identities *all, const char *path,
-                                 const wf_structure *structure) {
-    for (size_t i = 0; all && i < all->count; i++)
-        if (strcmp(all->of[i].path, path) && share(&all->of[i].structure, structure) &&
-            !are_alike(all->of[i].path, path))
-            return all->of[i].path;
-    return NULL;
+weft_status wf_identities_shared(const wf_identities *all, const char *path,
+                                 const wf_structure *structure, const char **shared,
+                                 weft_error *err) {
+    weft_status status = WEFT_OK;
+    *shared = NULL;
+    for (size_t i = 0; all && i < all->count && !status && !*shared; i++) {
+        const identity *other = &all->of[i];
+        bool alike = false;
+        if (!strcmp(other->path, path) || !share(&other->structure, structure)) continue;
+        status = compare(other->path, path, &alike, err);
+        if (!alike) *shared = other->path;
+    }
+    return status;
 }

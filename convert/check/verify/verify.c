@@ -117,12 +117,18 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
     s.streamed = !status && is_streamed(&s.figures.info);
     if (status || s.figures.info.videos)
         s.contained = !wf_metadata_read(path, &s.metadata, &untold);
-    if (s.contained) (void)wf_structure_read(path, s.metadata.container, &s.structure, &untold);
-    s.shared_with = wf_identities_shared(options->others, path, &s.structure);
+    if (!status && s.figures.info.videos && !s.contained)
+        return wf_fail(err, WEFT_FAILED, "%s", untold.text);
+    weft_status unread = WEFT_OK;
+    if (s.contained) unread = wf_structure_read(path, s.metadata.container, &s.structure, err);
+    if (unread) return unread;
+    unread = wf_identities_shared(options->others, path, &s.structure, &s.shared_with, err);
+    if (unread) return unread;
     find_raster(&s, options->raster);
     if (!status && !s.contained && !s.streamed)
-        (void)wf_frame_labels_read(path, s.raster.frame_rate, s.figures.info.separate ? 2 : 1,
-                                   &s.labels, &untold);
+        unread = wf_frame_labels_read(path, s.raster.frame_rate,
+                                      s.figures.info.separate ? 2 : 1, &s.labels, err);
+    if (unread) return unread;
     out->raster = s.raster;
     out->count = wf_run_checks(&s, out->finding);
     for (size_t i = 0; i < out->count; i++) out->wrong += out->finding[i].verdict == WF_WRONG;

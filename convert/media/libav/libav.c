@@ -2,6 +2,7 @@
  * libavcodec can read. */
 #include "convert/media/libav/libav.h"
 
+#include "convert/base/infile.h"
 #include "convert/media/libav/ffv1_slices.h"
 #include "convert/media/libav/libav_reading.h"
 #include "convert/media/libav/libav_times.h"
@@ -304,17 +305,19 @@ static wf_video_tags tags_of(const reading *r, bool jpeg) {
 
 /* QuickTime says it by the way in which the picture is laid over others (Graphics Modes):
  * straight, and multiplied over black. */
-static wf_alpha alpha_said(const wf_video *v) {
+static weft_status read_alpha_said(const wf_video *v, wf_alpha *alpha, weft_error *err) {
     const reading *r = v->state;
     wf_metadata metadata = {0};
     bool mov = !v->pipe && !strncmp(r->format->iformat->name, "mov,", 4);
-    FILE *file = mov ? fopen(v->path, "rbe") : NULL;
-    if (!file) return WF_ALPHA_UNSET;
+    FILE *file;
+    *alpha = WF_ALPHA_UNSET;
+    weft_status status = mov ? wf_infile_open(v->path, &file, err) : WEFT_OK;
+    if (!mov || status) return status;
     wf_metadata_mov(file, &metadata);
-    fclose(file);
-    return metadata.graphics_mode == 0x100   ? WF_ALPHA_STRAIGHT
-           : metadata.graphics_mode == 0x102 ? WF_ALPHA_PREMULTIPLIED
-                                             : WF_ALPHA_UNSET;
+    *alpha = metadata.graphics_mode == 0x100   ? WF_ALPHA_STRAIGHT
+             : metadata.graphics_mode == 0x102 ? WF_ALPHA_PREMULTIPLIED
+                                               : WF_ALPHA_UNSET;
+    return wf_infile_close(file, v->path, WEFT_OK, err);
 }
 
 static weft_status describe_pixels(wf_video *v, weft_error *err) {
@@ -339,13 +342,12 @@ static weft_status describe_pixels(wf_video *v, weft_error *err) {
     info->layout = rgb ? WF_RGB : WF_YCBCR;
     info->bits = d->comp[0].depth;
     info->alpha = d->flags & AV_PIX_FMT_FLAG_ALPHA;
-    info->alpha_said = alpha_said(v);
     info->full_range = rgb || jpeg || r->frame->color_range == AVCOL_RANGE_JPEG;
     info->planes = d->nb_components < 3 ? 1 : 3;
     info->across = 1 << d->log2_chroma_w;
     info->down = 1 << d->log2_chroma_h;
     info->tags = tags_of(r, jpeg);
-    return WEFT_OK;
+    return read_alpha_said(v, &info->alpha_said, err);
 }
 
 static wf_rational ratio_of(AVRational r) {

@@ -3,7 +3,9 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -31,7 +33,8 @@ namespace {
 class File final : public Filesystem::IOFile {
   public:
     bool starved = false;
-    explicit File(const char *path) : IOFile(path, Read) {}
+    int trouble; // errno of what the system refused; 0: nothing
+    explicit File(const char *path) : IOFile(path, Read), trouble(mode() == Read ? 0 : errno) {}
     size_t read(void *to, size_t bytes) override {
         return note(IOFile::read(to, bytes), bytes);
     }
@@ -42,6 +45,7 @@ class File final : public Filesystem::IOFile {
   private:
     size_t note(size_t got, size_t bytes) {
         starved |= got < bytes;
+        if (got < bytes && std::ferror(handle())) trouble = EIO;
         return got;
     }
 };
@@ -51,17 +55,24 @@ struct Input {
     std::unique_ptr<ImageInput> reader;
 };
 
+// Why the system did not give what was wanted of the file.
+weft_status unread(const char *path, const Input &in, weft_error *err) {
+    return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, std::strerror(in.file->trouble));
+}
+
 weft_status open_input(const char *path, int part, Input &in, weft_error *err) {
     const char *format;
     weft_status status = wf_format_of(path, &format, err);
     if (status) return status;
-    in.reader = ImageInput::create(format);
     in.file = std::make_unique<File>(path);
+    if (in.file->trouble) return unread(path, in, err);
+    in.reader = ImageInput::create(format);
     if (in.reader && in.reader->supports("ioproxy")) in.reader->set_ioproxy(in.file.get());
     ImageSpec spec, config;
     config.attribute("oiio:UnassociatedAlpha", 1); // samples as they are in the file
-    if (!in.reader || !in.reader->open(path, spec, config))
-        return trouble(in.reader, path, "opened", err);
+    const bool opened = in.reader && in.reader->open(path, spec, config);
+    if (in.file->trouble) return unread(path, in, err);
+    if (!opened) return trouble(in.reader, path, "opened", err);
     if (in.reader->seek_subimage(std::max(part, 0), 0)) return WEFT_OK;
     (void)in.reader->geterror();
     return wf_fail(err, WEFT_FAILED, "%.700s: it has no part %d", path, part);
@@ -292,7 +303,9 @@ weft_status read_picture(Input &in, const ImageSpec &spec, Reading &r, float *pl
     r.slab.resize(size_t(lines) * size_t(spec.width) * size_t(r.end - r.first));
     for (int y = spec.y; y < bottom; y += lines) {
         const int end = std::min(y + lines, bottom);
-        if (!read_slab(*in.reader, spec, r, y, end)) {
+        const bool read = read_slab(*in.reader, spec, r, y, end);
+        if (in.file->trouble) return unread(r.path, in, err);
+        if (!read) {
             char doing[64];
             snprintf(doing, sizeof doing, "read at lines %d to %d", y - spec.full_y,
                      end - 1 - spec.full_y);

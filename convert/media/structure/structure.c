@@ -1,10 +1,10 @@
 /* Reads the structure of a container: which reader a file gets, and what the readers share. */
 #include "convert/media/structure/structure.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <string.h>
 
+#include "convert/base/infile.h"
 #include "convert/media/structure/extent.h"
 
 bool wf_extent_read(const wf_extent *x, int64_t at, void *to, size_t bytes) {
@@ -50,9 +50,9 @@ void wf_structure_of(FILE *file, const char *container, wf_structure *out) {
 
 weft_status wf_structure_read(const char *path, const char *container, wf_structure *out,
                               weft_error *err) {
-    FILE *file = fopen(path, "rbe");
-    if (!file) return wf_fail(err, WEFT_FAILED, "%.700s: %s", path, strerror(errno));
+    FILE *file;
+    weft_status status = wf_infile_open(path, &file, err);
+    if (status) return status;
     wf_structure_of(file, container, out);
-    fclose(file);
-    return WEFT_OK;
+    return wf_infile_close(file, path, WEFT_OK, err);
 }
