@@ -242,11 +242,27 @@ static bool write_subframe(const char *directory, int k, int lines_per_chunk, fl
     return exr_finish(&file) == EXR_ERR_SUCCESS && ok;
 }
 
+static const char usage[] =
+    "usage: make_subframes DIRECTORY [COUNT]\n"
+    "\n"
+    "Makes COUNT subframes (1 to 9999; 128, after which all motion repeats) in DIRECTORY,\n"
+    "which is made if it is not there: subframe.0000.exr and on, half float, 1440x972,\n"
+    "480000/1001 a second, eight a field of 525-line video.\n";
+
+/* COUNT; 0 where it is no number of subframes. */
+static int read_count(const char *text) {
+    char *end;
+    const long count = strtol(text, &end, 10);
+    return end != text && !*end && count >= 1 && count <= 9999 ? (int)count : 0;
+}
+
 int main(int argc, char **argv) {
     enum { LINES_PER_CHUNK = 16 }; /* of ZIP */
-    const int count = argc > 2 ? atoi(argv[2]) : PERIOD;
-    if (argc < 2 || argc > 3 || count < 1 || count > 9999) {
-        fprintf(stderr, "usage: make_subframes DIRECTORY [COUNT]\n");
+    if (argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")))
+        return fputs(usage, stdout) < 0;
+    const int count = argc > 2 ? read_count(argv[2]) : PERIOD;
+    if (argc < 2 || argc > 3 || !count || *argv[1] == '-') {
+        fputs(usage, stderr);
         return 2;
     }
     if (mkdir(argv[1], 0777) != 0 && errno != EEXIST) {

@@ -53,6 +53,7 @@ static void add_input(wf_json *json, const wf_report *report) {
     wf_json_int(json, "chunks_decoded", report->chunks_decoded);
     wf_json_int(json, "chunks_reused", report->chunks_reused);
     wf_json_int(json, "nan_fixed", report->nan_fixed);
+    wf_json_int(json, "nan_alone", report->nan_alone);
     wf_taken_json(json, &report->taken);
     wf_json_close(json);
 }

@@ -40,7 +40,7 @@ typedef struct wf_report {
     int64_t listed, opened; /* subframes selected, missing ones included; files opened */
     wf_rational *missing;   /* [missing_count] numbers that are needed and absent */
     size_t missing_count;
-    int64_t chunks_decoded, chunks_reused, nan_fixed;
+    int64_t chunks_decoded, chunks_reused, nan_fixed, nan_alone;
     wf_taken_list taken; /* what the input was taken for: members of "input" */
 
     bool traced; /* false: "tracer" is {} */

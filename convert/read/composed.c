@@ -88,7 +88,8 @@ static void copy_channel(const wf_rows *to, const wf_rows *from, int c, wf_box b
 static void add_counts(wf_reader *to, const wf_source_counts *before, const wf_reader *of) {
     to->counts.chunks_decoded += of->counts.chunks_decoded - before->chunks_decoded;
     to->counts.chunks_reused += of->counts.chunks_reused - before->chunks_reused;
-    to->counts.nan_fixed += of->counts.nan_fixed - before->nan_fixed;
+    to->counts.nan.fixed += of->counts.nan.fixed - before->nan.fixed;
+    to->counts.nan.alone += of->counts.nan.alone - before->nan.alone;
 }
 
 /* Lays what a layer has of the rows over what is there. */

@@ -20,7 +20,7 @@ static const wf_rows *rows_with(const wf_nan_fixer *f, int y) {
 }
 
 /* Mean of the finite neighbors, as they were before any was replaced. */
-static float box3(const wf_nan_fixer *f, int channel, int x, int y) {
+static float box3(const wf_nan_fixer *f, int channel, int x, int y, bool *alone) {
     double sum = 0;
     int count = 0;
     for (int j = y - 1; j <= y + 1; j++) {
@@ -31,31 +31,34 @@ static float box3(const wf_nan_fixer *f, int channel, int x, int y) {
             if (isfinite(value)) sum += (double)value, count++;
         }
     }
+    *alone |= !count;
     return count ? (float)(sum / count) : 0;
 }
 
-static bool fix_pixel(const wf_nan_fixer *f, int x, int y, float *const plane[4], size_t at) {
-    bool fixed = false;
+static void fix_pixel(const wf_nan_fixer *f, int x, int y, float *const plane[4], size_t at,
+                      wf_nan_counts *counts) {
+    bool fixed = false, alone = false;
     for (int c = 0; c < f->rows.channels; c++) {
         float value = sample_at(&f->rows, c, x, y);
         bool fine = isfinite(value);
-        plane[c][at] = fine ? value : f->how == WF_NAN_BOX3 ? box3(f, c, x, y) : 0;
+        plane[c][at] = fine ? value : f->how == WF_NAN_BOX3 ? box3(f, c, x, y, &alone) : 0;
         fixed |= !fine;
     }
-    return fixed;
+    counts->fixed += fixed;
+    counts->alone += alone;
 }
 
-int64_t wf_nan_fix_rows(const wf_nan_fixer *f, float *out) {
+wf_nan_counts wf_nan_fix_rows(const wf_nan_fixer *f, float *out) {
     const wf_rows *r = &f->rows;
     size_t width = (size_t)(r->x1 - r->x0), plane_samples = width * (size_t)(r->y1 - r->y0);
     float *const plane[4] = {out, out + plane_samples, out + 2 * plane_samples,
                              out + 3 * plane_samples};
-    int64_t fixed = 0;
+    wf_nan_counts counts = {0, 0};
     for (int y = r->y0; y < r->y1; y++)
         for (int x = r->x0; x < r->x1; x++)
-            fixed +=
-                fix_pixel(f, x, y, plane, (size_t)(y - r->y0) * width + (size_t)(x - r->x0));
-    return fixed;
+            fix_pixel(f, x, y, plane, (size_t)(y - r->y0) * width + (size_t)(x - r->x0),
+                      &counts);
+    return counts;
 }
 
 void wf_floats_of_halves(float *out, const void *halves, size_t count) {

@@ -12,8 +12,9 @@ typedef struct wf_nan_fixer {
 
 /* Writes the rows as floats [channels][lines][width] with every sample that is not finite
  * replaced: by the mean of the finite ones among its 3x3 neighbors of the same channel, or 0.
- * Returns how many pixels had any. */
-int64_t wf_nan_fix_rows(const wf_nan_fixer *fixer, float *out);
+ * Returns how many pixels had any, and in how many of them WF_NAN_BOX3 found no such neighbor
+ * and took 0. */
+wf_nan_counts wf_nan_fix_rows(const wf_nan_fixer *fixer, float *out);
 
 /* The first pixel that is not finite, in reading order. False if there is none. */
 bool wf_find_not_finite(const wf_rows *rows, int *x, int *y);

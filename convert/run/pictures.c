@@ -183,7 +183,8 @@ static void tell(const wf_run *run, wf_report *report) {
         wf_source_counts counts = wf_reader_counts(p->reader[t]);
         report->chunks_decoded += counts.chunks_decoded;
         report->chunks_reused += counts.chunks_reused;
-        report->nan_fixed += counts.nan_fixed;
+        report->nan_fixed += counts.nan.fixed;
+        report->nan_alone += counts.nan.alone;
     }
     report->opened = p->opened;
     report->decode_s = wf_crew_times(&run->crew).source_s;

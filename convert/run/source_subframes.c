@@ -25,8 +25,10 @@ typedef struct subframes {
     int64_t end_field; /* of all frames, whatever the chunk */
 } subframes;
 
-static bool takes(const weft_job *job) {
-    return job->command == WF_CONVERT;
+static weft_status takes(const weft_job *job, bool *takes, weft_error *err) {
+    (void)err;
+    *takes = job->command == WF_CONVERT;
+    return WEFT_OK;
 }
 
 static void close_input(wf_run *run) {
@@ -410,10 +412,15 @@ static void tell(const wf_run *run, wf_report *report) {
     if (s) s->missing = NULL; /* the report's now */
     if (!run->finished || !report->nan_fixed) return;
     report->degraded = true;
-    wf_job_warn(run->job, "%lld pixels of the input were NaN or infinite: %s",
+    char alone[96] = "";
+    if (report->nan_alone)
+        snprintf(alone, sizeof alone, ", but for %lld that had no finite one and are black",
+                 (long long)report->nan_alone);
+    wf_job_warn(run->job, "%lld pixels of the input were NaN or infinite: %s%s",
                 (long long)report->nan_fixed,
                 run->job->nan_fix == WF_NAN_BLACK ? "they are black"
-                                                  : "they are the means of their neighbors");
+                                                  : "they are the means of their neighbors",
+                alone);
 }
 
 static const wf_picture_reading reading = {
