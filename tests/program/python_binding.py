@@ -29,6 +29,31 @@ def program(*arguments):
                           capture_output=True, text=True)
 
 
+class Doors(unittest.TestCase):
+    """What libweft would get as something else is refused before it does."""
+
+    def test_nul_bytes(self):
+        for make in (lambda: weft.Job("a\0b"), lambda: weft.Job(output="b\0c"), lambda: weft.raster("525i\0zz"),
+                     lambda: weft.Job(raster="525i\0zz"), lambda: weft.Job(command="render\0"), lambda: weft.Job(set={"a\0": 1}),
+                     lambda: weft.Job(**{"threads\0": 3}), lambda: weft.aperture_response("box\0"),
+                     lambda: weft.Job().load("a\0b"), lambda: weft.Job(raster="525i").plan("csv\0")):
+            with self.assertRaisesRegex(weft.UsageError, "NUL"):
+                make()
+
+    def test_integers_beyond_64_bits(self):
+        with weft.Job(raster=SMALL, aperture="box") as job:
+            for frames in (2**63, 2**64 + 15, -2**63 - 1):
+                with self.assertRaisesRegex(weft.UsageError, "64 bits"):
+                    weft.Fields(job, frames=frames)
+            with weft.Fields(job, frames=4) as fields:
+                one = np.ones(1)
+                for bad in (lambda n: fields.push(n, one, one, 0, np.ones((1, 3))), fields.until,
+                            lambda n: fields.push_tile(n, np.ones((1, 1, 3)))):
+                    for number in (2**63, 2**64, -2**64):
+                        with self.assertRaisesRegex(weft.UsageError, "64 bits"):
+                            bad(number)
+
+
 class Header(unittest.TestCase):
     """weft.h, as a compiler sees it, is what the package takes it for."""
 

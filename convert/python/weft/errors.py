@@ -60,7 +60,24 @@ def check(status: int, error: _ErrorStruct) -> int:
     raise _KINDS.get(status, WeftError)(text)
 
 
+def int64(value: int) -> int:
+    """The value, which libweft can hold; ctypes would drop its upper bits without a word."""
+    if not -2**63 <= value < 2**63:
+        raise UsageError(f"{value} is beyond 64 bits; give a smaller number")
+    return value
+
+
+def _check_argument(kind, value) -> None:
+    """Refuses what would reach libweft as something else: text ends at a NUL byte there."""
+    if kind is ctypes.c_char_p and isinstance(value, bytes) and b"\0" in value:
+        raise UsageError(f"{value!r} has a NUL byte, at which text ends; leave it out")
+    if kind is ctypes.c_int64 and isinstance(value, int):
+        int64(value)
+
+
 def call(function, *arguments) -> int:
     """Calls a function of libweft that returns a weft_status and takes a weft_error last."""
     error = _ErrorStruct()
+    for kind, value in zip(function.argtypes, arguments):
+        _check_argument(kind, value)
     return check(function(*arguments, ctypes.byref(error)), error)

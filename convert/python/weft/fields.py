@@ -10,7 +10,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ._library import FIELD_FN, FLOATS, Samples, Tile, lib
-from .errors import UsageError, call
+from .errors import UsageError, call, int64
 from .job import Calls, Job
 
 
@@ -110,7 +110,7 @@ class Fields:
         planes = np.ascontiguousarray(_floats("rgb", rgb, (n, 3)).T)
         weights = None if weight is None else _floats("weight", weight, (n,))
         opaque = None if alpha is None else _floats("alpha", alpha, (n,))
-        samples = Samples(n, _pointer(x), _pointer(y), _pointer(t), int(field),
+        samples = Samples(n, _pointer(x), _pointer(y), _pointer(t), int64(int(field)),
                           *(_pointer(plane) for plane in planes),
                           _pointer(weights), _pointer(opaque))
         call(lib.weft_fields_push, self._open(), ctypes.byref(samples))
@@ -131,7 +131,7 @@ class Fields:
         if rect is None:
             rect = (0, 0, self._job.raster.width_px, self._job.raster.lines)
         x0, y0, x1, y1 = (float(edge) for edge in rect)
-        tile = Tile(x0, y0, x1, y1, float(t), int(field), width, height, _pointer(rgb),
+        tile = Tile(x0, y0, x1, y1, float(t), int64(int(field)), width, height, _pointer(rgb),
                     _pointer(opaque))
         call(lib.weft_fields_push_tile, self._open(), ctypes.byref(tile))
 
