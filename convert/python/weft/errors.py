@@ -67,10 +67,16 @@ def int64(value: int) -> int:
     return value
 
 
-def _check_argument(kind, value) -> None:
-    """Refuses what would reach libweft as something else: text ends at a NUL byte there."""
-    if kind is ctypes.c_char_p and isinstance(value, bytes) and b"\0" in value:
+def whole_text(value: bytes) -> bytes:
+    """The value, all of which libweft gets: text ends at a NUL byte there."""
+    if b"\0" in value:
         raise UsageError(f"{value!r} has a NUL byte, at which text ends; leave it out")
+    return value
+
+
+def _check_argument(kind, value) -> None:
+    if kind is ctypes.c_char_p and isinstance(value, bytes):
+        whole_text(value)
     if kind is ctypes.c_int64 and isinstance(value, int):
         int64(value)
 

@@ -86,7 +86,7 @@ def _split(structure: Any, options: dict[str, Any]) -> tuple[Any, dict[str, Any]
         elif value is not None:
             if isinstance(value, Mapping):
                 value = [f"{one}={limit}" for one, limit in value.items()]
-            setattr(asked, key.rstrip("_"), os.fsencode(option_text(None, value) or ""))
+            setattr(asked, key.rstrip("_"), whole_text(os.fsencode(option_text(None, value) or "")))
     return asked, rest
 
 

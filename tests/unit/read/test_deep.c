@@ -87,7 +87,9 @@ static void there_and_back(void **state) {
     weft_error err;
     (void)state;
     write_file();
-    assert_true(wf_deep_is(path));
+    bool deep = false;
+    assert_int_equal(wf_deep_is(path, &deep, &err), WEFT_OK);
+    assert_true(deep);
     if (wf_deep_open(path, &raster, &file, &err)) fail_msg("%s", err.text);
     assert_string_equal(wf_deep_raster(file), "24x10@30i");
     assert_string_equal(wf_deep_space(file), "ACEScg");

@@ -709,7 +709,7 @@ static void expect_fixed(const char *path, const exr_part *p, wf_nan_fix how, in
                         fail_msg("%d,%d is %g, should be %g", x, j, is, should);
                 }
     }
-    assert_int_equal(wf_reader_counts(reader).nan_fixed, pixels_with_holes(p));
+    assert_int_equal(wf_reader_counts(reader).nan.fixed, pixels_with_holes(p));
     wf_reader_free(reader);
     wf_subframe_close(s);
 }
