@@ -36,7 +36,8 @@ class Doors(unittest.TestCase):
         for make in (lambda: weft.Job("a\0b"), lambda: weft.Job(output="b\0c"), lambda: weft.raster("525i\0zz"),
                      lambda: weft.Job(raster="525i\0zz"), lambda: weft.Job(command="render\0"), lambda: weft.Job(set={"a\0": 1}),
                      lambda: weft.Job(**{"threads\0": 3}), lambda: weft.aperture_response("box\0"),
-                     lambda: weft.Job().load("a\0b"), lambda: weft.Job(raster="525i").plan("csv\0")):
+                     lambda: weft.Job().load("a\0b"), lambda: weft.Job(raster="525i").plan("csv\0"),
+                     lambda: weft.filters("box\0")):
             with self.assertRaisesRegex(weft.UsageError, "NUL"):
                 make()
 

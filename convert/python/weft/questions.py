@@ -13,7 +13,7 @@ import numpy as np
 from . import _files
 from ._library import Composite, Filters, Measure, ProfileStruct, Verify, lib
 from .clip import Clip, read
-from .errors import Failed, UsageError, WeftError, call
+from .errors import Failed, UsageError, WeftError, call, whole_text
 from .job import Job, Path, option_text
 from .report import Report, Reports, wrap
 from .tables import raster
