@@ -90,7 +90,7 @@ static bool make_pictures(wf_screen *s) {
 static weft_status find_deinterlacer(wf_screen *s, weft_error *err) {
     void *symbol;
     char what[80];
-    snprintf(what, sizeof what, "--display %s (not bob or crt)", wf_display_name(s->kind));
+    snprintf(what, sizeof what, "--display %s, unlike bob and crt,", wf_display_name(s->kind));
     weft_status status =
         wf_module_symbol("deinterlace", "wf_deinterlacer_of", what, &symbol, err);
     if (status) return status;

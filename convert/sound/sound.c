@@ -72,7 +72,7 @@ static weft_status find_reader(wf_sound *s, weft_error *err) {
     void *symbol;
     char what[600];
     wf_libav_sound_fn *reader;
-    snprintf(what, sizeof what, "%.500s: sound that is not silent:2", s->path);
+    snprintf(what, sizeof what, "%.500s: sound, unlike silent:2,", s->path);
     weft_status status = wf_module_symbol("libav", "wf_libav_sound", what, &symbol, err);
     if (status) return status;
     memcpy(&reader, &symbol, sizeof reader);

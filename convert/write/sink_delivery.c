@@ -23,7 +23,7 @@ static const wf_delivery *delivery_of(const wf_output_options *o) {
 
 /* What needs libav, and what would not. */
 static void name_need(const wf_output_options *o, char what[600]) {
-    snprintf(what, 600, "%.500s: a container (which .y4m, .v210 and sequences are not)",
+    snprintf(what, 600, "%.500s: a container, unlike .y4m, .v210 and sequences,",
              o->output);
 }
 

@@ -76,7 +76,7 @@ static weft_status find_encoder(const wf_output_options *options, const char *fo
                                 weft_error *err) {
     void *symbol;
     char what[600];
-    snprintf(what, sizeof what, "%.500s: %s (which .exr and .png are not)", options->output,
+    snprintf(what, sizeof what, "%.500s: %s, unlike .exr and .png,", options->output,
              format);
     weft_status status = wf_module_symbol("oiio", entry, what, &symbol, err);
     if (!status) memcpy(encode, &symbol, sizeof symbol);

@@ -70,6 +70,10 @@ weft_status job_run(const char *options, const char *output, char report[JOB_REP
     if (!status) status = weft_job_run(job, err);
     if (report) snprintf(report, JOB_REPORT, "%s", weft_job_report(job));
     weft_job_free(job);
+    if (status && err && strstr(err->text, "which this weft was built without")) {
+        print_message("skipped: %s\n", err->text);
+        skip();
+    }
     return status;
 }
 

@@ -27,7 +27,7 @@ weft_status job_set(weft_job *job, const char *options, weft_error *err);
 void job_oiiotool(const char *arguments);
 
 /* Converts in.####.exr -> output with the options "name=value flag ..". report (if not NULL)
- * gets the JSON. */
+ * gets the JSON. The test is skipped where that needs a module that was not built. */
 weft_status job_run(const char *options, const char *output, char report[JOB_REPORT],
                     weft_error *err);
 
