@@ -77,10 +77,11 @@ WEFT_API weft_status weft_job_load(weft_job *job, const char *path, weft_error *
 /* Progress of weft_job_run, called from the thread that called it: between frames and, now and
  * then, within one that takes long. */
 typedef struct weft_progress {
-    int64_t frames_done, frames_total;
-    double seconds;    /* since the run began */
-    const char *stage; /* what the job does; static storage */
-    double frame_part; /* of the frame that is being made, 0 to 1 */
+    int64_t frames_done, frames_total; /* a total of 0: it is not known, as of a pipe */
+    double seconds;                    /* since the run began */
+    const char *stage;                 /* what the job does; static storage */
+    double frame_part;                 /* of the frame that is being made, 0 to 1 */
+    double frames_made; /* frames_done, and parts of all frames that are being made together */
 } weft_progress;
 typedef void weft_progress_fn(const weft_progress *progress, void *user);
 WEFT_API void weft_job_on_progress(weft_job *job, weft_progress_fn *fn, void *user);

@@ -195,12 +195,19 @@ static wf_signal *signal_of(const measuring *m, int64_t frame) {
     return frame < 0 ? NULL : m->signal[frame % 2];
 }
 
-static void show_progress(const measuring *m) {
-    int64_t done = m->frames + 1, total = wf_video_info_of(m->video)->frames;
+/* Frames that will be measured; 0: it is not known. */
+static int64_t frames_in_all(const measuring *m) {
+    int64_t asked = m->options->frame_count, there = wf_video_info_of(m->video)->frames;
+    if (there > 0)
+        there = there > m->options->first_frame ? there - m->options->first_frame : 0;
+    return there > 0 && (!asked || there < asked) ? there : asked;
+}
+
+static void show_progress(const measuring *m, int64_t done) {
     const weft_progress progress = {.frames_done = done,
-                                    .frames_total = total > done ? total : done,
+                                    .frames_total = frames_in_all(m),
                                     .seconds = wf_now_s() - m->began_s,
-                                    .stage = "measure"};
+                                    .stage = m->options->stage ? m->options->stage : "measure"};
     if (m->options->progress) m->options->progress(&progress, m->options->progress_user);
 }
 
@@ -218,6 +225,7 @@ static weft_status next_frame(measuring *m, const wf_video_frame **frame, weft_e
 }
 
 static weft_status measure_frames(measuring *m, weft_error *err) {
+    show_progress(m, 0);
     for (;; m->frames++) {
         const wf_video_frame *frame;
         if (m->options->cancelled && *m->options->cancelled)
@@ -231,7 +239,7 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
             measurements[i]->add(m->state[i], signal, signal_of(m, m->frames - 1));
         status = show(m, signal_of(m, m->frames - 1), signal, signal, err);
         if (status) return status;
-        show_progress(m);
+        show_progress(m, m->frames + 1);
     }
 }
 

@@ -147,12 +147,29 @@ static void run_pieces(void *what, wf_worker *worker) {
             if (!wf_crew_stopped(p->crew)) p->work(p->user, worker, n);
 }
 
+/* The same, of which progress is told. */
+static void run_told(void *what, wf_worker *worker) {
+    pieces *p = what;
+    for (int n; (n = atomic_fetch_add(&p->next, 1)) < p->count;) {
+        if (!wf_crew_stopped(p->crew)) p->work(p->user, worker, n);
+        atomic_fetch_add(&p->crew->pieces_done, 1);
+        wf_crew_tick(p->crew, worker, 0);
+    }
+}
+
 void wf_crew_each(wf_crew *crew, int count, int together, wf_crew_work *work, void *user) {
     pieces p = {.crew = crew, .count = count, .together = together, .work = work, .user = user};
     if (count > together)
         all_run(crew, run_pieces, &p);
     else
         run_pieces(&p, &crew->workers[0]);
+}
+
+void wf_crew_within(wf_crew *crew, int count, wf_crew_work *work, void *user) {
+    pieces p = {.crew = crew, .count = count, .work = work, .user = user};
+    crew->piece_count = count;
+    atomic_store(&crew->pieces_done, 0);
+    all_run(crew, run_told, &p);
 }
 
 static void take_in_turn(pieces *p, wf_worker *worker, int n, void *made) {
@@ -231,18 +248,28 @@ weft_status wf_crew_status(const wf_crew *crew, weft_error *err) {
     return WEFT_OK;
 }
 
-static void tell(wf_crew *crew, double part) {
+static void tell(wf_crew *crew) {
     if (!crew->job->progress) return;
     crew->told_s = wf_now_s();
-    const weft_progress progress = {crew->done, crew->total, crew->told_s - crew->began_s,
-                                    wf_command_name(crew->job->command), part};
+    const weft_progress progress = {.frames_done = crew->done,
+                                    .frames_total = crew->total,
+                                    .seconds = crew->told_s - crew->began_s,
+                                    .stage = wf_command_name(crew->job->command),
+                                    .frame_part = fmin(crew->told_part, 1),
+                                    .frames_made = (double)crew->done + crew->told_part};
     crew->job->progress(&progress, crew->job->progress_user);
 }
 
+void wf_crew_begin(wf_crew *crew) {
+    tell(crew);
+}
+
+/* Frames that are made together are done one after the other. */
 void wf_crew_step(wf_crew *crew) {
     crew->done++;
-    crew->part = crew->part_share = crew->told_part = 0;
-    tell(crew, 0);
+    crew->part = crew->part_share = 0;
+    crew->told_part = fmax(crew->told_part - 1, 0);
+    tell(crew);
 }
 
 void wf_crew_part(wf_crew *crew, double part, double share) {
@@ -259,8 +286,8 @@ void wf_crew_tick(wf_crew *crew, const wf_worker *worker, double within) {
     if (worker->number || !(crew->part_share > 0) || wf_now_s() - crew->told_s < TICK_S) return;
     double done = atomic_load(&crew->pieces_done) + within * crew->threads;
     double share = fmin(done / fmax(crew->piece_count, 1), 1);
-    crew->told_part = fmax(crew->told_part, fmin(crew->part + crew->part_share * share, 1));
-    tell(crew, crew->told_part);
+    crew->told_part = fmax(crew->told_part, crew->part + crew->part_share * share);
+    tell(crew);
 }
 
 wf_worker wf_crew_times(const wf_crew *crew) {

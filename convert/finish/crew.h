@@ -25,9 +25,10 @@ typedef struct wf_crew {
     atomic_bool stop;       /* a worker has failed */
     int64_t done, total;    /* frames (or subframes) written, and to be written */
     double began_s, told_s; /* when the run began, and progress was last told of */
-    /* Where in a frame the work in hand begins, how much of one it is, and its pieces. */
+    /* After how many frames, of those in hand, the work that is next begins, how many it is,
+     * and its pieces. */
     double part, part_share;
-    double told_part; /* of the frame, as it was last told */
+    double told_part; /* of the frames in hand, as it was last told */
     int piece_count;
     atomic_int pieces_done;
     struct wf_pool *pool; /* of threads, once there was work for them */
@@ -42,6 +43,9 @@ void wf_crew_free(wf_crew *crew);
  * them in a row are handed out at once. What is left is skipped when wf_crew_stopped. */
 typedef void wf_crew_work(void *user, wf_worker *worker, int n);
 void wf_crew_each(wf_crew *crew, int count, int together, wf_crew_work *work, void *user);
+
+/* The same, one at a time, of which progress is told as wf_crew_part has said. */
+void wf_crew_within(wf_crew *crew, int count, wf_crew_work *work, void *user);
 
 /* Calls make(user, worker, n) in any order, by all workers, and take(user, worker, n, made)
  * with what it returned in the order of n, one at a time. What is not made, since the crew has
@@ -79,11 +83,12 @@ bool wf_crew_stopped(const wf_crew *crew);
 /* WEFT_INTERRUPTED, or a worker's failure, or WEFT_OK. Between pieces of work only. */
 weft_status wf_crew_status(const wf_crew *crew, weft_error *err);
 
-/* One frame more is done: tells the job's progress function. */
+/* Work on frames begins, or one frame more is done: tells the job's progress function. */
+void wf_crew_begin(wf_crew *crew);
 void wf_crew_step(wf_crew *crew);
 
-/* What wf_crew_in_order is given next begins at `part` of the frame that is being made, and is
- * `share` of it: progress is told of within it. */
+/* What wf_crew_in_order or wf_crew_within is given next begins after `part` frames of those
+ * that are being made, and is `share` of one or more: progress is told of within it. */
 void wf_crew_part(wf_crew *crew, double part, double share);
 
 /* Tells of progress within a frame, if the last time was long ago; any worker, at any time.

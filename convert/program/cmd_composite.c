@@ -23,13 +23,10 @@ static void on_warning(const char *text, void *user) {
     wf_cmd_say("warning: ", text);
 }
 
-/* Passes progress on. The number of frames may be unknown until the last has been read: it is
- * then shown as the number that is done. */
 static void on_progress(const weft_progress *progress, void *user) {
     composite_state *state = user;
     weft_progress shown = *progress;
     shown.stage = "composite";
-    if (shown.frames_total < shown.frames_done) shown.frames_total = shown.frames_done;
     wf_meter_update(&shown, &state->meter);
 }
 

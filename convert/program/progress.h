@@ -12,6 +12,7 @@ typedef struct wf_meter {
     bool drawn; /* a line is waiting to be rewritten */
     bool color;
     double shown_s; /* when show last wrote, in seconds of the job; below 0: never */
+    double began_s; /* when work on frames did: after what comes before the first */
     int percent;    /* what show last wrote; -1: nothing yet */
     weft_progress last;
 } wf_meter;

@@ -1,5 +1,6 @@
 /* Fields summed from pictures: a few pictures are opened, read band by band of rows, each band
  * by one thread, and added to all fields that see them. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -217,9 +218,24 @@ static weft_status begin_fields(batch *b, weft_error *err) {
     return WEFT_OK;
 }
 
+/* After how many frames of the group these units come, and how many they are, by their time. */
+static void tell_part(const batch *b) {
+    wf_run *run = b->run;
+    int per_frame = wf_raster_fields_per_frame(&run->job->raster);
+    int64_t field = wf_field_index(b->p->flight[0]), past = b->units->group_end;
+    int64_t begin = run->kind->needs(run, field).first, from = b->units->unit[0];
+    double frames = (double)(past - field) / per_frame;
+    double units = (double)(run->kind->needs(run, past - 1).end - begin);
+    double before = fmax((double)(from - begin), 0) / units;
+    double here = (double)(b->units->unit[b->units->count - 1] + 1 - from) / units;
+    wf_crew_part(&run->crew, (double)(field % per_frame) / per_frame + frames * before,
+                 frames * fmin(here, 1 - before));
+}
+
 static weft_status add_bands(batch *b, weft_error *err) {
     wf_crew *crew = &b->run->crew;
-    wf_crew_each(crew, wf_resampler_bands(b->p->resampler), 1, add_band, b);
+    tell_part(b);
+    wf_crew_within(crew, wf_resampler_bands(b->p->resampler), add_band, b);
     weft_status status = wf_crew_status(crew, err);
     for (int f = 0; !status && f < b->field_count; f++) wf_field_end_batch(b->fields[f]);
     return status;

@@ -92,6 +92,7 @@ static weft_status make_frames(wf_run *run, int64_t first, int64_t end, weft_err
 static weft_status make_all(wf_run *run, weft_error *err) {
     int64_t first = run->setup.first_frame, end;
     weft_status status = wf_frames_open(run->frames, err);
+    if (!status) wf_crew_begin(&run->crew);
     while (!status && wf_frames_next(run->job, &run->setup, &first, &end)) {
         status = make_frames(run, first, end, err);
         first = end;

@@ -293,6 +293,7 @@ static weft_status trace_all(tracing *t, int64_t last_frame, weft_error *err) {
     const wf_run *run = t->run;
     weft_status status = WEFT_OK;
     int64_t end;
+    wf_crew_begin(&t->run->crew);
     for (int64_t n = run->setup.first_frame;
          !status && wf_frames_next(run->job, &run->setup, &n, &end);)
         for (; !status && n < end; n++) status = trace_frame(t, n, last_frame, err);

@@ -74,7 +74,8 @@ static weft_status trace_subframe(subframes *f, int64_t k, weft_error *err) {
     wf_frame frame = {.index = k};
     if (!wf_sampling_subframe(f->source->sampling, wf_ratio_div(wf_ratio(k, 1), f->rate)))
         return wf_fail(err, WEFT_NO_MEMORY, "no memory for the scene");
-    wf_crew_each(crew, (f->raster.lines + WF_TRACE_ROWS - 1) / WF_TRACE_ROWS, 1, trace_band, f);
+    wf_crew_part(crew, 0, 1);
+    wf_crew_within(crew, (f->raster.lines + WF_TRACE_ROWS - 1) / WF_TRACE_ROWS, trace_band, f);
     weft_status status = wf_crew_status(crew, err);
     for (int c = 0; c < f->channels; c++) {
         frame.plane[c] = f->plane[c];
@@ -110,6 +111,7 @@ static weft_status trace_all(subframes *f, weft_error *err) {
     const wf_setup *s = &f->run->setup;
     const wf_sink_ops *ops = s->output.ops;
     weft_status status = wf_output_open(s->output, &s->output_options, &f->sink, err);
+    if (!status) wf_crew_begin(&f->run->crew);
     for (int64_t k = s->first_frame; !status && k < s->end_frame; k++)
         if (!job->resume || !wf_output_present(s->output.kind, job->output, k))
             status = trace_subframe(f, k, err);

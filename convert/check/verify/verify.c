@@ -101,7 +101,8 @@ static bool is_raw(const char *path) {
 
 weft_status wf_verify(const char *path, const wf_verify_options *options, wf_verification *out,
                       weft_error *err) {
-    const wf_measure_options measure = {.raster = is_raw(path) ? options->raster : NULL,
+    const wf_measure_options measure = {.stage = "verify",
+                                        .raster = is_raw(path) ? options->raster : NULL,
                                         .of_delivery = true,
                                         .max_memory_bytes = options->max_memory_bytes,
                                         .progress = options->progress,

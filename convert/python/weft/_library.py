@@ -21,7 +21,7 @@ class Error(ctypes.Structure):
 
 class ProgressStruct(ctypes.Structure):
     _fields_ = [("frames_done", c_int64), ("frames_total", c_int64), ("seconds", c_double),
-                ("stage", c_char_p), ("frame_part", c_double)]
+                ("stage", c_char_p), ("frame_part", c_double), ("frames_made", c_double)]
 
 
 class Samples(ctypes.Structure):

@@ -29,6 +29,7 @@ class Progress:
     seconds: float  #: since the run began
     stage: str  #: what the job does
     frame_part: float = 0.0  #: of the frame that is being made, 0 to 1
+    frames_made: float = 0.0  #: frames_done, and parts of all frames that are being made together
 
 
 class Calls:
@@ -117,7 +118,7 @@ class Job:
         def tell_progress(pointer, _user):
             p = pointer.contents
             told = Progress(p.frames_done, p.frames_total, p.seconds, (p.stage or b"").decode(),
-                            p.frame_part)
+                            p.frame_part, p.frames_made)
             calls.guard(progress, told)
             if calls.raised is not None:
                 lib.weft_job_cancel(handle)
