@@ -78,8 +78,8 @@ class Frame:
 
 
 class Maker:
-    def __init__(self, weft, folder):
-        self.weft, self.folder = weft, folder
+    def __init__(self, weft, folder, samples=64):
+        self.weft, self.folder, self.samples = weft, folder, samples
         self.sharp_path = self.render("sharp.exr", "--aperture", "line")
         self.sharp = Frame(self.render("sharp.y4m", "--aperture", "line", *CODES))
 
@@ -88,7 +88,8 @@ class Maker:
 
     def render(self, name, *options):
         subprocess.run([self.weft, "render", os.path.join(HERE, "panorama.lua"), "--raster", RASTER, "--frames", "0",
-                        "--temporal-width", "0", "--samples", "64", "--overwrite", "-q", "-o", self.path(name), *options],
+                        "--temporal-width", "0", "--samples", str(self.samples), "--overwrite", "-q", "-o", self.path(name),
+                        *options],
                        check=True)
         return self.path(name)
 
@@ -116,6 +117,17 @@ class Maker:
         return self.nearest(high)
 
 
+    def ways(self):
+        """By name, the picture of each."""
+        ways = {"ffmpeg": self.ffmpeg(), "shaped": Frame(self.render("shaped.y4m", "--aperture", "shaped", *CODES))}
+        return {**ways, "nearest": self.as_calm(min(frame.flicker for frame in ways.values()))}
+
+
+def told(frame, sharp):
+    """RMS and the 99.9th percentile of its flicker, and its distance from the sharp frame."""
+    return frame.flicker, float(numpy.quantile(flicker(frame.light), 0.999)), rms(frame.light - sharp.light)
+
+
 CODES = ("--bits", "16", "--chroma", "444")
 
 
@@ -130,11 +142,10 @@ def main():
     out = sys.argv[2] if len(sys.argv) > 2 else os.path.join(HERE, "pictures", "before_after.png")
     with tempfile.TemporaryDirectory() as folder:
         make = Maker(weft, folder)
-        ways = {"ffmpeg": make.ffmpeg(), "shaped": Frame(make.render("shaped.y4m", "--aperture", "shaped", *CODES))}
-        ways["nearest"] = make.as_calm(min(frame.flicker for frame in ways.values()))
+        ways = make.ways()
     for name, frame in ways.items():
-        print(f"{name}: flicker {frame.flicker:.5f} RMS, {numpy.quantile(flicker(frame.light), 0.999):.4f} at 99.9 %, "
-              f"distance from the sharp frame {rms(frame.light - make.sharp.light):.5f}")
+        calm, worst, distance = told(frame, make.sharp)
+        print(f"{name}: flicker {calm:.5f} RMS, {worst:.4f} at 99.9 %, distance from the sharp frame {distance:.5f}")
     columns = [column_of(frame) for frame in ways.values()]
     lines, width, _ = columns[0][0].shape
     sheet = numpy.full((2 * lines + GAP, len(columns) * (width + GAP) - GAP, 3), 255, numpy.uint8)

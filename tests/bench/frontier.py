@@ -23,6 +23,8 @@ import zlib
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "../../examples/scenes"))
+from before_after import flicker, rms  # noqa: E402
 RASTER = "720x486@30000/1001psf,bff,par=10:11,601-525"
 FOLDERS = ("flicker", "scenes", "../../examples/scenes", "../../examples/paper")
 SCENES = ("still", "panorama", "carousel", "slow_edges", "wheel", "lettering", "credits", "siding", "branches",
@@ -90,20 +92,13 @@ def luminance(path):
     return sum(picture[:, names.index(name), :].astype(float) * w for name, w in weights.items())
 
 
-def flicker(light):
-    """Half the difference of both fields on a bob display; a missing neighbor is the one on the other side."""
-    above = np.vstack([light[1:2], light[:-1]])
-    below = np.vstack([light[1:], light[-2:-1]])
-    return 0.5 * np.abs(light - 0.5 * (above + below))
-
-
 class Figures:
     """What a picture measures."""
 
     def __init__(self, light, sharp):
         seen = flicker(light)
-        self.rms, self.p999 = float(np.sqrt(np.mean(seen ** 2))), float(np.quantile(seen, 0.999))
-        self.d = float(np.sqrt(np.mean((light - sharp) ** 2)))
+        self.rms, self.p999 = rms(seen), float(np.quantile(seen, 0.999))
+        self.d = rms(light - sharp)
         self.peak = float(seen.max())
 
 
