@@ -6,8 +6,7 @@
 
 examples/povray/render.py renders each scene with eight subframes a field: all of them, what a plan for half a field
 wants, and what it still wants for an error. Seconds are those of POV-Ray's processes, start included. The truth is a
-frame of 32 subframes within the window of each field, of twice the width and twice the lines; RMSE is that of Y',
-white being 1, in that frame. Exits with 1 where a target is missed.
+frame of 32 subframes within the window of each field; RMSE is that of Y', white being 1, in that frame. Exits with 1 where a target is missed.
 """
 import argparse
 import array
@@ -83,8 +82,7 @@ def measure(build, work, scene):
     took = {"all": renders.render("all", *span, "--temporal-width", "1"),
             "planned": renders.render("planned", *span, *wide),
             "refined": renders.render("refined", *span, *wide, "--error", ERROR)}
-    renders.render("truth", "--frames", f"{TRUE_FRAME}-{TRUE_FRAME}", "--subframe-rate", TRUE_RATE, *wide, "--size",
-                   f"{2 * WIDTH}x{2 * LINES}")
+    renders.render("truth", "--frames", f"{TRUE_FRAME}-{TRUE_FRAME}", "--subframe-rate", TRUE_RATE, *wide)
     truth = renders.luma("truth", TRUE_RATE, TRUE_FRAME, TRUE_FRAME)[0]
     videos = {name: renders.luma(name, RATE, 0, last) for name in took}
     off = {name: rmse(video[TRUE_FRAME], truth) for name, video in videos.items()}
@@ -125,7 +123,7 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         for scene in asked.scenes.split(","):
             rows[scene] = measure(asked.build, work, scene)
-            print(told(rows)[0], flush=True)
+            print(told({scene: rows[scene]})[0], flush=True)
     text, kept = told(rows)
     if asked.publish:
         publish(text)

@@ -37,7 +37,7 @@ for round in 1 2 3 4 5 6 7 8; do
         check "part $part of round $round" exits 0 python3 "$driver" shot.pov parts $looks --error 0.002 --chunk $part
     done
     exits 0 "$WEFT" plan $looks --refine parts --error 0.002 --format json
-    value "d['subframes'] == []" 2>/dev/null && break
+    value "d['subframes'] == []" >/dev/null 2>&1 && break
 done
 check "parts end" value "d['subframes'] == []"
 check "video of parts" video parts parts.y4m
