@@ -7,6 +7,10 @@ __extension__ typedef __int128 wide;
 
 static const wf_rational not_given = {0, 0};
 
+#define EXACT_DECIMALS 9
+#define DECIMALS_UNIT  1000000000000000000 /* 10^18 */
+#define SAME_DOUBLE    0x1p-53L            /* off by so much of a number and less */
+
 static wide common_divisor(wide a, wide b) {
     while (b) {
         wide rest = a % b;
@@ -76,22 +80,60 @@ static int read_digits(const char **text, int64_t *value) {
     return count;
 }
 
+/* Reads digits behind a point as *part of 10^18, more of which there are no use for; returns
+ * how many there were. */
+static int read_decimals(const char **text, int64_t *part) {
+    int64_t place = DECIMALS_UNIT;
+    int count = 0;
+    for (*part = 0; **text >= '0' && **text <= '9'; ++*text, count++)
+        *part += (place /= 10) * (**text - '0');
+    return count;
+}
+
+/* The simplest ratio that is the same double as whole + part / 10^18, by continued fractions:
+ * what `below` has left is how far num/den is off, times den. {0, 0} where it does not fit. */
+static wf_rational near_decimal(int64_t whole, int64_t part) {
+    wide above = part, below = DECIMALS_UNIT, num[2] = {1, 0}, den[2] = {0, 1};
+    long double size = (long double)whole * DECIMALS_UNIT + (long double)part;
+    while ((long double)below > (long double)den[0] * size * SAME_DOUBLE) {
+        wide times = above / below, rest = above - times * below;
+        wide next[2] = {times * num[0] + num[1], times * den[0] + den[1]};
+        num[1] = num[0];
+        den[1] = den[0];
+        num[0] = next[0];
+        den[0] = next[1];
+        above = below;
+        below = rest;
+    }
+    return reduced(whole * den[0] + num[0], den[0]);
+}
+
+/* Up to nine decimals are exact. */
+static wf_rational exact_decimal(int64_t whole, int64_t part, int decimals) {
+    int64_t unit = 1;
+    while (decimals--) unit *= 10;
+    return reduced((wide)whole * unit + part / (DECIMALS_UNIT / unit), unit);
+}
+
 bool wf_ratio_parse(const char *text, wf_rational *out) {
-    int64_t num = 0, den = 1;
+    int64_t num = 0, den = 1, part;
     int digits = read_digits(&text, &num);
+    wf_rational ratio;
     if (digits > 0 && (*text == '/' || *text == ':')) {
         text++;
         den = 0;
         if (read_digits(&text, &den) < 1) return false;
+        ratio = wf_ratio(num, den);
     } else if (digits >= 0 && *text == '.') {
         text++;
-        int decimals = read_digits(&text, &num);
-        if (decimals < 1 || decimals > 9) return false;
-        while (decimals--) den *= 10;
-    } else if (digits < 1) {
-        return false;
+        int decimals = read_decimals(&text, &part);
+        if (decimals < 1) return false;
+        ratio = decimals <= EXACT_DECIMALS ? exact_decimal(num, part, decimals)
+                                           : near_decimal(num, part);
+    } else {
+        if (digits < 1) return false;
+        ratio = wf_ratio(num, den);
     }
-    wf_rational ratio = wf_ratio(num, den);
     if (*text || !wf_ratio_given(ratio)) return false;
     *out = ratio;
     return true;

@@ -214,13 +214,14 @@ class Jobs(unittest.TestCase):
 
     def test_bytes_of_the_program(self):
         for options in ({"aperture": "box", "temporal_width": Fraction(1, 3)},
+                        {"temporal_width": 1e-05, "background": 0.30000000000000004},
                         {"bits": 8, "chroma": "121", "from_": "acescg"},
                         {"background": (0.1, 0.2, 0.3), "fit": "pad", "input_par": "2:1", "skip": False}):
             report = self.job(output="py.y4m", **options).run()
             self.assertEqual((report["frames"], report["command"]), (4, "convert"))
             line = ["convert", "in.####.exr", "--raster", SMALL, "-o", "c.y4m", "--overwrite", "-q"]
             for name, value in options.items():
-                text = {False: "off"}.get(value) or re.sub(r"[() ]", "", str(value))
+                text = {False: "off", 1e-05: "0.00001"}.get(value) or re.sub(r"[() ]", "", str(value))
                 line += ["--" + name.rstrip("_").replace("_", "-"), text]
             done = program(*line)
             self.assertEqual(done.returncode, 0, done.stderr)

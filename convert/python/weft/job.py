@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import ctypes
 import json
+import math
 import os
 import sys
 import warnings
 import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Optional, Union
 
@@ -66,6 +68,8 @@ def option_text(option: Optional[Option], value: Any) -> Optional[str]:
         return os.fspath(value)
     if isinstance(value, Fraction):
         return f"{value.numerator}/{value.denominator}"
+    if isinstance(value, float) and math.isfinite(value):
+        return format(Decimal(repr(float(value))), "f")  # without an exponent
     if isinstance(value, (list, tuple)):
         return ",".join(option_text(option, part) or "" for part in value)
     return str(value)

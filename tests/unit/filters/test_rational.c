@@ -1,4 +1,5 @@
 /* Exact ratios against 128-bit arithmetic, and what texts mean. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -137,7 +138,7 @@ static void texts_that_are_not(void **state) {
                                  "inf",
                                  "0x10",
                                  "1,5",
-                                 "1.0000000001",
+                                 "1.000000000a",
                                  "1/-2",
                                  "9223372036854775808",
                                  "99999999999999999999/3",
@@ -150,6 +151,38 @@ static void texts_that_are_not(void **state) {
         assert_true(r.num == 12 && r.den == 34); /* untouched */
         assert_false(wf_rate_parse(wrong[i], &r));
         assert_true(r.num == 12 && r.den == 34);
+    }
+}
+
+/* Every finite decimal is taken, and what is long is the simplest ratio of its double. */
+static void decimals_of_any_length(void **state) {
+    (void)state;
+    const struct {
+        const char *text;
+        wf_rational is;
+    } cases[] = {
+        {"0.3333333333333333", {1, 3}},
+        {"2.6666666666666665", {8, 3}},
+        {"1.00000000000000000000000000", {1, 1}},
+        {"0.9999999999999999999999999999", {1, 1}},
+        {"59.94005994005994", {60000, 1001}},
+        {"0.0000000000000000000000000001", {0, 1}},
+        {"9223372036854775807.0000000000", {INT64_MAX, 1}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wf_rational r = {0, 0};
+        if (!wf_ratio_parse(cases[i].text, &r)) fail_msg("%s was refused", cases[i].text);
+        if (!wf_ratio_equal(r, cases[i].is))
+            fail_msg("%s is %lld/%lld", cases[i].text, (long long)r.num, (long long)r.den);
+    }
+    uint64_t seed = 5;
+    for (int i = 0; i < 20000; i++) {
+        char text[80];
+        double value = (double)(random_term(&seed) & 0xffffffffffff) / (double)(1LL << i % 48);
+        snprintf(text, sizeof text, "%.*f", 10 + i % 30, value);
+        wf_rational r = {0, 0};
+        if (!wf_ratio_parse(text, &r)) fail_msg("%s was refused", text);
+        assert_true(fabs(wf_ratio_value(r) - strtod(text, NULL)) <= 3e-16 * value + 2e-18);
     }
 }
 
@@ -195,6 +228,7 @@ int main(void) {
         cmocka_unit_test(floors_are_exact),
         cmocka_unit_test(texts_that_are_ratios),
         cmocka_unit_test(texts_that_are_not),
+        cmocka_unit_test(decimals_of_any_length),
         cmocka_unit_test(texts_round_trip),
         cmocka_unit_test(rates_by_their_short_names),
     };

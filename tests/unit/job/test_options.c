@@ -224,6 +224,35 @@ static void ends_of_ranges(void **state) {
     }
 }
 
+/* Programs print numbers with as many decimals as a double has, and more. */
+static void decimals_of_any_length(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *value;
+    } cases[] = {
+        {"flicker-limit", "0.0093324551"},
+        {"flicker-limit", "visible:0.4714045207910317"},
+        {"flicker-weight", "2.8284271247461903"},
+        {"view-distance", "4.2426406871192848"},
+        {"peak", "282.84271247461903"},
+        {"temporal-width", "0.3333333333333333"},
+        {"shutter-angle", "172.82827124746190"},
+        {"scan-skew", "0.70710678118654752440084436210485"},
+        {"subframe-rate", "479.52047952047952"},
+        {"input-par", "0.9090909090909091"},
+        {"exposure", "-0.57721566490153286"},
+        {"error", "0.0027182818284590452"},
+        {"background", "0.1000000000000000055511151231257827,0.2,0.30000000000000004"},
+        {"raster", "720x486@29.97002997002997i"},
+    };
+    weft_job *job = new_job();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        take(job, cases[i].name, cases[i].value);
+    assert_float_equal(wf_ratio_value(job->flicker_weight), 2.8284271247461903, 1e-15);
+    assert_true(wf_ratio_equal(job->subframe_rate, wf_ratio(480000, 1001)));
+    weft_job_free(job);
+}
+
 static void values_arrive(void **state) {
     (void)state;
     weft_job *job = new_job();
@@ -391,6 +420,7 @@ int main(void) {
         cmocka_unit_test(choices_are_the_words_shown),
         cmocka_unit_test(garbage_is_refused),
         cmocka_unit_test(ends_of_ranges),
+        cmocka_unit_test(decimals_of_any_length),
         cmocka_unit_test(values_arrive),
         cmocka_unit_test(names_that_are_none),
         cmocka_unit_test(contradictions),
