@@ -74,6 +74,13 @@ WEFT_API weft_status weft_job_set(weft_job *job, const char *name, const char *v
  * names file, line and column; the job is then part set and good for weft_job_free only. */
 WEFT_API weft_status weft_job_load(weft_job *job, const char *path, weft_error *err);
 
+/* A job file may hold several jobs: an array of such objects, or an object with them as "jobs"
+ * beside what all of them share. *count is how many there are, 0 of a file that is one job;
+ * weft_job_load refuses a list, and weft_job_load_nth loads its job `number`, from 1. */
+WEFT_API weft_status weft_jobs_in(const char *path, size_t *count, weft_error *err);
+WEFT_API weft_status weft_job_load_nth(weft_job *job, const char *path, size_t number,
+                                       weft_error *err);
+
 /* Progress of weft_job_run, called from the thread that called it: between frames and, now and
  * then, within one that takes long. */
 typedef struct weft_progress {

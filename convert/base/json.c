@@ -81,6 +81,10 @@ void wf_json_bool(wf_json *json, const char *key, bool value) {
     add(json, key, json_boolean(value));
 }
 
+void wf_json_document(wf_json *json, const char *key, const char *text) {
+    if (!json->failed) add(json, key, json_loads(text, JSON_DECODE_ANY, NULL));
+}
+
 char *wf_json_finish(wf_json *json) {
     char *line =
         json->failed ? NULL : json_dumps(json->root, JSON_INDENT(2) | JSON_REAL_PRECISION(9));

@@ -29,6 +29,9 @@ void wf_json_int(wf_json *json, const char *key, int64_t value);
 void wf_json_real(wf_json *json, const char *key, double value);
 void wf_json_bool(wf_json *json, const char *key, bool value);
 
+/* A document that wf_json_finish has made. */
+void wf_json_document(wf_json *json, const char *key, const char *text);
+
 /* The whole document as text that ends in a newline, whatever is still open (the caller's,
  * free()); NULL: memory is out. Releases the document in any case. */
 char *wf_json_finish(wf_json *json);

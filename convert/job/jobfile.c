@@ -7,12 +7,14 @@
 #include <limits.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "convert/base/fail.h"
+#include "convert/job/joblist.h"
 #include "filters/base/spelling.h"
 
 /* The file, and the member in hand. */
@@ -35,7 +37,7 @@ typedef struct place {
 /* Where key `member` of the outermost object begins, in text that is good JSON: jansson keeps
  * the members' order but not their places. */
 static place place_of(const loading *l) {
-    place at = {1, 0};
+    place at = {l->text->line + 1, l->text->column};
     size_t left = l->member + 1;
     int depth = 0;
     bool key_next = false;
@@ -62,14 +64,15 @@ static weft_status wrong(const loading *l, weft_error *err, const char *format, 
     __attribute__((format(printf, 3, 4)));
 
 static weft_status wrong(const loading *l, weft_error *err, const char *format, ...) {
-    char text[700];
+    char text[700], number[32] = "";
     place at = place_of(l);
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return wf_fail(err, WEFT_USAGE, "%.300s:%d:%d: %s", l->text->path, at.line, at.column,
-                   text);
+    if (l->text->number) snprintf(number, sizeof number, "job %zu: ", l->text->number);
+    return wf_fail(err, WEFT_USAGE, "%.300s:%d:%d: %s%s", l->text->path, at.line, at.column,
+                   number, text);
 }
 
 /* Puts file, line and column before the refusal of whoever takes the value. */
@@ -268,10 +271,22 @@ static weft_status set_command(const loading *l, const json_t *value, weft_error
     return placed(l, weft_job_set_command(l->job, name, &why), &why, err);
 }
 
+/* The jobs of a list are taken one by one (convert/job/joblist.h). */
+static weft_status pass_jobs(const loading *l, const json_t *value, weft_error *err) {
+    (void)value;
+    if (l->taker->shared) return WEFT_OK;
+    return wrong(l, err,
+                 l->text->number ? "a job cannot hold others"
+                                 : "this is a list of jobs, and one job is wanted");
+}
+
 static const struct {
     const char *key;
     weft_status (*set)(const loading *l, const json_t *value, weft_error *err);
-} fixed[] = {{"inputs", set_inputs}, {"output", set_output}, {"command", set_command}};
+} fixed[] = {{"inputs", set_inputs},
+             {"output", set_output},
+             {"command", set_command},
+             {"jobs", pass_jobs}};
 
 #define FIXED (sizeof fixed / sizeof *fixed)
 
@@ -323,22 +338,24 @@ static weft_status load_members(loading *l, json_t *root, weft_error *err) {
     return status;
 }
 
-weft_status wf_jobfile_apply(weft_job *job, const wf_jobfile_text *given,
-                             const wf_jobfile_taker *taker, weft_error *err) {
-    wf_jobfile_text text = *given;
+weft_status wf_jobfile_parse(const wf_jobfile_text *text, json_t **root, weft_error *err) {
     json_error_t why;
-    if (text.size >= 3 && !memcmp(text.bytes, "\xEF\xBB\xBF", 3))
-        text.bytes += 3, text.size -= 3;
-    json_t *root = json_loadb(text.bytes, text.size, JSON_REJECT_DUPLICATES, &why);
-    if (!root) return refuse_json(&text, &why, err);
-    loading l = {.job = job, .text = &text, .taker = taker};
-    weft_status status =
-        json_is_object(root)
-            ? load_members(&l, root, err)
-            : wf_fail(err, WEFT_USAGE,
-                      "%.300s:1:1: this is an array; a job file is one JSON object, such as "
-                      "{\"inputs\": \"shot.####.exr\", \"output\": \"shot.y4m\"}",
-                      text.path);
+    *root = json_loadb(text->bytes, text->size, JSON_REJECT_DUPLICATES, &why);
+    return *root ? WEFT_OK : refuse_json(text, &why, err);
+}
+
+weft_status wf_jobfile_apply(weft_job *job, const wf_jobfile_text *text,
+                             const wf_jobfile_taker *taker, weft_error *err) {
+    json_t *root;
+    loading l = {.job = job, .text = text, .taker = taker};
+    weft_status status = wf_jobfile_parse(text, &root, err);
+    if (status) return status;
+    status = json_is_object(root)
+                 ? load_members(&l, root, err)
+                 : wf_fail(err, WEFT_USAGE,
+                           "%.300s:1:1: this is an array; one job is a JSON object, such as "
+                           "{\"inputs\": \"shot.####.exr\", \"output\": \"shot.y4m\"}",
+                           text->path);
     json_decref(root);
     return status;
 }
@@ -358,21 +375,34 @@ static weft_status read_all(int fd, const char *path, char *bytes, size_t *size,
     }
 }
 
-weft_status wf_jobfile_load(weft_job *job, const char *path, const wf_jobfile_taker *taker,
-                            weft_error *err) {
+/* A byte order mark is no part of the text. */
+static void skip_mark(wf_jobfile_text *text, char *bytes) {
+    if (text->size < 3 || memcmp(bytes, "\xEF\xBB\xBF", 3) != 0) return;
+    text->size -= 3;
+    memmove(bytes, bytes + 3, text->size);
+}
+
+weft_status wf_jobfile_read(const char *path, wf_jobfile_text *text, weft_error *err) {
     bool standard = !strcmp(path, "-");
     char *bytes = malloc(WF_JOBFILE_BYTES + 1);
     if (!bytes) return wf_fail(err, WEFT_NO_MEMORY, "%.300s: out of memory", path);
-    wf_jobfile_text text = {standard ? "standard input" : path, bytes, 0};
+    *text = (wf_jobfile_text){.path = standard ? "standard input" : path, .bytes = bytes};
     int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     weft_status status =
         fd < 0 ? wf_fail(err, WEFT_FAILED, "%.300s: %s; --job takes a file of JSON", path,
                          strerror(errno))
-               : read_all(fd, text.path, bytes, &text.size, err);
+               : read_all(fd, text->path, bytes, &text->size, err);
     if (fd >= 0 && !standard) close(fd);
-    if (!status) status = wf_jobfile_apply(job, &text, taker, err);
-    free(bytes);
+    if (status)
+        wf_jobfile_free(text);
+    else
+        skip_mark(text, bytes);
     return status;
+}
+
+void wf_jobfile_free(wf_jobfile_text *text) {
+    free((char *)(uintptr_t)text->bytes);
+    text->bytes = NULL;
 }
 
 /* ---- The public interface ---- */
@@ -390,8 +420,46 @@ static weft_status set_of_jobs(void *user, const char *name, const char *value, 
     return WEFT_OK;
 }
 
-weft_status weft_job_load(weft_job *job, const char *path, weft_error *err) {
-    const wf_jobfile_taker taker = {job, option_of_jobs, set_of_jobs, false};
+/* Job `number` of a file, from 1, with what all of its jobs share; 0: the file is one job. */
+static weft_status load_one(weft_job *job, const wf_jobfile_text *text, size_t number,
+                            weft_error *err) {
+    const wf_jobfile_taker taker = {job, option_of_jobs, set_of_jobs, false, number > 0};
+    wf_jobfile_text *jobs;
+    size_t count;
+    if (!number) return wf_jobfile_apply(job, text, &taker, err);
+    weft_status status = wf_joblist_find(text, &jobs, &count, err);
+    if (!status && number > count)
+        status = wf_fail(err, WEFT_USAGE, "%.300s: there is no job %zu, but %zu of them",
+                         text->path, number, count);
+    if (!status && wf_joblist_shares(text)) status = wf_jobfile_apply(job, text, &taker, err);
+    const wf_jobfile_taker own = {job, option_of_jobs, set_of_jobs, false, false};
+    if (!status) status = wf_jobfile_apply(job, &jobs[number - 1], &own, err);
+    free(jobs);
+    return status;
+}
+
+weft_status weft_job_load_nth(weft_job *job, const char *path, size_t number, weft_error *err) {
+    wf_jobfile_text text;
     if (!path || !*path) return wf_fail(err, WEFT_USAGE, "a job file's name is empty");
-    return wf_jobfile_load(job, path, &taker, err);
+    weft_status status = wf_jobfile_read(path, &text, err);
+    if (status) return status;
+    status = load_one(job, &text, number, err);
+    wf_jobfile_free(&text);
+    return status;
+}
+
+weft_status weft_job_load(weft_job *job, const char *path, weft_error *err) {
+    return weft_job_load_nth(job, path, 0, err);
+}
+
+weft_status weft_jobs_in(const char *path, size_t *count, weft_error *err) {
+    wf_jobfile_text text, *jobs;
+    *count = 0;
+    if (!path || !*path) return wf_fail(err, WEFT_USAGE, "a job file's name is empty");
+    weft_status status = wf_jobfile_read(path, &text, err);
+    if (status) return status;
+    status = wf_joblist_find(&text, &jobs, count, err);
+    free(jobs);
+    wf_jobfile_free(&text);
+    return status;
 }

@@ -2,6 +2,7 @@
 #ifndef WF_CONVERT_PROGRAM_CMD_H
 #define WF_CONVERT_PROGRAM_CMD_H
 
+#include "convert/job/joblist.h"
 #include "convert/program/progress.h"
 #include "convert/weft.h"
 
@@ -51,10 +52,21 @@ weft_status wf_cmd_parse(const wf_cmd *cmd, int argc, char **argv, void *state, 
 /* Option i of the command: its own first, then the job's that it takes. False past the end. */
 bool wf_cmd_option_at(const wf_cmd *cmd, size_t i, weft_option *out, char *letter);
 
-/* Loads job files into job, and the command's own options that they hold into its state, whose
- * values `kept` owns until wf_cmd_forget. A later file wins. */
-weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_list *files, void *state, weft_job *job,
-                        wf_cmd_list *kept, weft_error *err);
+/* Job files, read once. One of them may hold a list of jobs. */
+typedef struct wf_cmd_jobs {
+    wf_jobfile_text file[WF_CMD_MOST_VALUES];
+    size_t files;
+    wf_jobfile_text *job; /* of the list */
+    size_t count;         /* of them; 0: there is no list, and the files say what one job is */
+    size_t list;          /* which file it is in */
+} wf_cmd_jobs;
+weft_status wf_cmd_read_jobs(const wf_cmd_list *files, wf_cmd_jobs *jobs, weft_error *err);
+void wf_cmd_free_jobs(wf_cmd_jobs *jobs);
+
+/* Loads job files, of a list its job `index`, into job, and the command's own options that they
+ * hold into its state, whose values `kept` owns until wf_cmd_forget. A later file wins. */
+weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_jobs *jobs, size_t index, void *state,
+                        weft_job *job, wf_cmd_list *kept, weft_error *err);
 void wf_cmd_forget(wf_cmd_list *kept);
 
 /* The row of the option --progress, for a command's table. */

@@ -10,31 +10,24 @@
 #include "convert/base/fail.h"
 #include "convert/base/outfile.h"
 #include "convert/job/job.h"
-#include "convert/job/jobfile.h"
 #include "convert/page/compare.h"
 #include "convert/page/preview.h"
-
-typedef struct job_state {
-    const char *output, *progress, *report, *compare, *preview, *preview_frame;
-    bool quiet;
-    wf_cmd_list jobs, kept; /* job files, and values that they gave */
-    wf_meter meter;
-} job_state;
+#include "convert/program/job_state.h"
 
 static void on_warning(const char *text, void *user) {
-    job_state *state = user;
+    wf_job_state *state = user;
     if (state->quiet) return;
     wf_meter_clear(&state->meter);
     wf_cmd_say("warning: ", text);
 }
 
 static void on_print(const char *line, void *user) {
-    job_state *state = user;
+    wf_job_state *state = user;
     wf_meter_clear(&state->meter);
     fprintf(stderr, "%s\n", line);
 }
 
-static weft_status check_state(job_state *state, weft_error *err) {
+static weft_status check_state(wf_job_state *state, weft_error *err) {
     weft_status status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
     if (status) return status;
     if (state->report && state->output && !strcmp(state->report, "-") &&
@@ -44,43 +37,67 @@ static weft_status check_state(job_state *state, weft_error *err) {
     return WEFT_OK;
 }
 
-/* Loads the job files before all other options, wherever they stand. A first reading of the
+/* A copy of the arguments, which reading moves about; free(). */
+static char **copy_arguments(const wf_job_arguments *a, weft_error *err) {
+    char **words = malloc(((size_t)a->argc + 1) * sizeof *words);
+    if (words)
+        memcpy(words, a->argv, (size_t)a->argc * sizeof *words);
+    else
+        wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    return words;
+}
+
+/* Job files come before all other options, wherever they stand. A first reading of the
  * arguments into a job that is thrown away tells which there are. */
-static weft_status load_jobs(const wf_cmd *cmd, int argc, char **argv, job_state *state,
-                             weft_job *job, weft_error *err) {
-    int ignored;
-    job_state seen = {0};
+static weft_status read_jobs(wf_job_arguments *a, wf_job_state *seen, weft_error *err) {
+    int operands = 0;
     weft_job *trial = weft_job_new();
-    char **words = malloc(((size_t)argc + 1) * sizeof *words);
+    char **words = copy_arguments(a, err);
     weft_status status = WEFT_OK;
     if (!trial || !words) status = wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    if (words) memcpy(words, argv, (size_t)argc * sizeof *words);
-    if (!status) status = wf_cmd_parse(cmd, argc, words, &seen, trial, &ignored, err);
-    if (!status) status = wf_cmd_load(cmd, &seen.jobs, state, job, &state->kept, err);
+    if (!status) status = wf_cmd_parse(a->cmd, a->argc, words, seen, trial, &operands, err);
+    if (!status) status = wf_cmd_read_jobs(&seen->jobs, &a->files, err);
+    bool one = a->files.count && (operands || seen->output);
+    if (!status && one)
+        status =
+            wf_fail(err, WEFT_USAGE,
+                    "%.300s is a list of jobs, each of which has its own; leave out %.300s",
+                    a->files.file[a->files.list].path, operands ? words[0] : "the output");
+    if (!status && !a->files.count && seen->only)
+        status = wf_fail(err, WEFT_USAGE, "--only is of a list of jobs; give one with --job");
     weft_job_free(trial);
     free(words);
     return status;
 }
 
-static weft_status fill_job(const wf_cmd *cmd, int argc, char **argv, job_state *state,
-                            weft_job *job, weft_error *err) {
+static weft_status read_arguments(const wf_job_arguments *a, char **words, wf_job_state *state,
+                                  weft_job *job, weft_error *err) {
     int inputs = 0;
     wf_job_layer layer;
-    weft_status status = load_jobs(cmd, argc, argv, state, job, err);
-    if (status) return status;
     state->jobs.count = 0;
     wf_job_layer_begin(job, &layer);
-    status = wf_cmd_parse(cmd, argc, argv, state, job, &inputs, err);
+    weft_status status = wf_cmd_parse(a->cmd, a->argc, words, state, job, &inputs, err);
     wf_job_layer_end(job, &layer);
     if (!status) status = check_state(state, err);
     if (inputs) wf_job_clear_inputs(job);
-    for (int i = 0; i < inputs && !status; i++) status = weft_job_add_input(job, argv[i], err);
+    for (int i = 0; i < inputs && !status; i++) status = weft_job_add_input(job, words[i], err);
     if (!status && state->output) status = weft_job_set_output(job, state->output, err);
     return status;
 }
 
-static weft_status write_report(const char *path, const weft_job *job, weft_error *err) {
-    const char *json = weft_job_report(job);
+weft_status wf_job_fill(const wf_job_arguments *a, size_t index, wf_job_state *state,
+                        weft_job *job, weft_error *err) {
+    weft_status status = weft_job_set_command(job, a->cmd->name, err);
+    if (!status) status = wf_cmd_load(a->cmd, &a->files, index, state, job, &state->kept, err);
+    if (status) return status;
+    char **words = copy_arguments(a, err);
+    if (!words) return WEFT_NO_MEMORY;
+    status = read_arguments(a, words, state, job, err);
+    free(words);
+    return status;
+}
+
+weft_status wf_job_write_report(const char *path, const char *json, weft_error *err) {
     if (!strcmp(json, "{}"))
         return wf_fail(err, WEFT_NO_MEMORY, "%.700s: no memory for the report", path);
     wf_outfile *file;
@@ -92,7 +109,7 @@ static weft_status write_report(const char *path, const weft_job *job, weft_erro
     return status;
 }
 
-static void say_done(const job_state *state) {
+static void say_done(const wf_job_state *state) {
     const weft_progress *p = &state->meter.last;
     char text[128];
     snprintf(text, sizeof text, "%" PRId64 " frames in %.2f s", p->frames_done, p->seconds);
@@ -102,7 +119,7 @@ static void say_done(const job_state *state) {
 /* ---- Pages and previews ---- */
 
 /* What --compare asks for, made into the page that the output names. */
-static weft_status compare(job_state *state, weft_job *job, weft_error *err) {
+static weft_status compare(wf_job_state *state, weft_job *job, weft_error *err) {
     const wf_page_request request = {.max_bytes = WF_PAGE_MOST_BYTES,
                                      .max_memory_bytes = job->max_memory_bytes,
                                      .progress = wf_meter_update,
@@ -133,7 +150,7 @@ static weft_status refuse_page(const char *output, weft_error *err) {
                    output);
 }
 
-static weft_status read_preview(const job_state *state, const weft_job *job,
+static weft_status read_preview(const wf_job_state *state, const weft_job *job,
                                 wf_preview_request *preview, weft_error *err) {
     *preview = (wf_preview_request){.video = job->output,
                                     .raster = &job->raster,
@@ -150,13 +167,14 @@ static weft_status read_preview(const job_state *state, const weft_job *job,
     return status ? status : wf_preview_check_name(state->preview, job->overwrite, err);
 }
 
-static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
+static weft_status run_job(wf_job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
     weft_job_on_print(job, on_print, state);
     wf_cmd_catch_signals(job);
     weft_status status = weft_job_run(job, err);
-    wf_cmd_ignore_signals(); /* the job is about to be freed, and what is left takes no time */
+    /* Else the job is about to be freed, and what is left takes no time. */
+    if (!state->listed) wf_cmd_ignore_signals();
     wf_meter_clear(&state->meter);
     bool finished = status == WEFT_OK || status == WEFT_DEGRADED;
     if (finished && !job->plan) say_done(state);
@@ -164,12 +182,13 @@ static weft_status run_job(job_state *state, weft_job *job, weft_error *err) {
         (!state->report || strcmp(state->report, "-")))
         fputs(job->plan, stdout);
     if (!state->report) return status;
-    weft_status written = write_report(state->report, job, finished ? err : NULL);
+    weft_status written =
+        wf_job_write_report(state->report, weft_job_report(job), finished ? err : NULL);
     return finished && written ? written : status;
 }
 
 /* Runs the job, and looks at what it has written. */
-static weft_status run_and_preview(job_state *state, weft_job *job, weft_error *err) {
+static weft_status run_and_preview(wf_job_state *state, weft_job *job, weft_error *err) {
     wf_preview_request preview;
     weft_status status = refuse_page(job->output, err);
     if (!status) status = read_preview(state, job, &preview, err);
@@ -179,19 +198,31 @@ static weft_status run_and_preview(job_state *state, weft_job *job, weft_error *
     return shown ? shown : status;
 }
 
-weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
-    job_state state = {0};
+weft_status wf_job_run(wf_job_state *state, weft_job *job, weft_error *err) {
+    return (state->compare ? compare : run_and_preview)(state, job, err);
+}
+
+static weft_status run_one(const wf_job_arguments *arguments, weft_error *err) {
+    wf_job_state state = {0};
     weft_job *job = weft_job_new();
     if (!job) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    weft_status status = weft_job_set_command(job, cmd->name, err);
-    if (!status) status = fill_job(cmd, argc, argv, &state, job, err);
+    weft_status status = wf_job_fill(arguments, 0, &state, job, err);
     if (!status && state.report) status = wf_outfile_check(state.report, true, err);
-    if (!status && state.compare)
-        status = compare(&state, job, err);
-    else if (!status)
-        status = run_and_preview(&state, job, err);
+    if (!status) status = wf_job_run(&state, job, err);
     weft_job_free(job);
     wf_cmd_forget(&state.kept);
+    return status;
+}
+
+weft_status wf_job_command_run(const wf_cmd *cmd, int argc, char **argv, weft_error *err) {
+    wf_job_arguments arguments = {.cmd = cmd, .argc = argc, .argv = argv};
+    wf_job_state seen = {0};
+    weft_status status = read_jobs(&arguments, &seen, err);
+    if (!status && arguments.files.count)
+        status = wf_job_list_run(&arguments, &seen, err);
+    else if (!status)
+        status = run_one(&arguments, err);
+    wf_cmd_free_jobs(&arguments.files);
     return status;
 }
 
@@ -206,32 +237,34 @@ const wf_cmd_option wf_job_command_options[WF_VIDEO_COMMAND_OPTIONS] = {
       "(exr, tif, png); - is Y4M on standard output.",
       output},
      .letter = 'o',
-     .offset = offsetof(job_state, output)},
-    {WF_CMD_PROGRESS(output), .offset = offsetof(job_state, progress)},
+     .offset = offsetof(wf_job_state, output)},
+    {WF_CMD_PROGRESS(output), .offset = offsetof(wf_job_state, progress)},
     {{"quiet", NULL, NULL, "Say nothing but errors.", output},
      .letter = 'q',
-     .offset = offsetof(job_state, quiet)},
+     .offset = offsetof(wf_job_state, quiet)},
     {{"report", "FILE", NULL, "Write what was done as JSON, also when it failed.", output},
-     .offset = offsetof(job_state, report)},
+     .offset = offsetof(wf_job_state, report)},
     {{"job", "FILE", NULL,
       "Take options, inputs and output from a JSON file; - is standard input. Of several the "
-      "later wins, and over all of them the command line.",
+      "later wins, and over all of them the command line. The file may hold a list of jobs.",
       output},
-     .offset = offsetof(job_state, jobs),
+     .offset = offsetof(wf_job_state, jobs),
      .repeats = true},
+    {{"only", "N|A-B", "all", "Run only these jobs of a list, counted from 1.", output},
+     .offset = offsetof(wf_job_state, only)},
     /* Of video alone: */
     {{"compare", "A,B,..", NULL,
       "Make the video through each of these apertures, with +limit=E and +weight=MU behind "
       "them where flicker is held, and a page of all: --compare box,shaped,line+limit=.06 -o "
       "look.html.",
       output},
-     .offset = offsetof(job_state, compare)},
+     .offset = offsetof(wf_job_state, compare)},
     {{"preview", "FILE.png", NULL,
       "Also make a picture of one frame, with square pixels and no comb.", output},
-     .offset = offsetof(job_state, preview)},
+     .offset = offsetof(wf_job_state, preview)},
     {{"preview-frame", "N", "the middle one", "Which frame of the output that is, from 0.",
       output},
-     .offset = offsetof(job_state, preview_frame)},
+     .offset = offsetof(wf_job_state, preview_frame)},
 };
 
 const char wf_job_command_notes[] =
@@ -239,4 +272,11 @@ const char wf_job_command_notes[] =
     "-- ends the options. Numbers may be ratios: 1/3, 30000/1001.\n"
     "\n"
     "Exit codes: 0 done; 1 failed; 2 the request makes no sense; 3 done, but frames were\n"
-    "held or samples mended; 128 + n on signal n. On failure nothing unfinished is left.\n";
+    "held or samples mended; 128 + n on signal n. On failure nothing unfinished is left.\n"
+    "\n"
+    "A job file is {\"inputs\": \"shot.####.exr\", \"output\": \"shot.y4m\", \"raster\": "
+    "\"625i\"}:\n"
+    "keys are the names of options. A list of jobs is an array of such objects, or an object\n"
+    "with them as \"jobs\" beside what all of them share. A job that fails does not stop the\n"
+    "others: failures are told at the end, with exit code 3, or 1 if no job was done, and the\n"
+    "same command with --resume does the rest. --report is then of all jobs.\n";

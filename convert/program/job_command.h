@@ -6,8 +6,8 @@
 
 /* What the commands that run a job (convert, render, trace) have in common. Their rows differ
  * in name, text and the job's options that they take. */
-#define WF_JOB_COMMAND_OPTIONS   5
-#define WF_VIDEO_COMMAND_OPTIONS 8 /* those that make video have as many */
+#define WF_JOB_COMMAND_OPTIONS   6
+#define WF_VIDEO_COMMAND_OPTIONS 9 /* those that make video have as many */
 extern const wf_cmd_option wf_job_command_options[WF_VIDEO_COMMAND_OPTIONS];
 extern const char wf_job_command_notes[];
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "convert/base/fail.h"
-#include "convert/job/jobfile.h"
 #include "convert/program/cmd.h"
 
 typedef struct loading {
@@ -12,7 +11,16 @@ typedef struct loading {
     void *state;
     weft_job *job;
     wf_cmd_list *kept;
+    bool listed; /* it is a job of a list */
 } loading;
+
+/* Options of the command that are of the whole list. */
+static bool is_of_list(const char *name) {
+    static const char *const names[] = {"report", "progress", "quiet", "only"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(names[i], name)) return true;
+    return false;
+}
 
 /* The index of a job's option in the table of weft_option_at. */
 static size_t row_of(const char *name) {
@@ -46,6 +54,12 @@ static weft_status set(void *user, const char *name, const char *value, bool on,
     const loading *l = user;
     const wf_cmd_option *own = l->cmd->options, *end = own + l->cmd->option_count;
     while (own < end && strcmp(own->shown.name, name)) own++;
+    if (own < end && l->listed && is_of_list(name))
+        return wf_fail(
+            err, WEFT_USAGE,
+            "\"%s\" is of the whole list, and not of one of its jobs; give it beside "
+            "\"jobs\", or on the command line",
+            name);
     if (own < end && value)
         return keep(l->kept, value, (char **)(void *)((char *)l->state + own->offset), err);
     if (own < end) {
@@ -57,14 +71,55 @@ static weft_status set(void *user, const char *name, const char *value, bool on,
     return WEFT_OK;
 }
 
-weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_list *files, void *state, weft_job *job,
-                        wf_cmd_list *kept, weft_error *err) {
-    loading l = {cmd, state, job, kept};
-    const wf_jobfile_taker taker = {&l, option_at, set, true};
+weft_status wf_cmd_load(const wf_cmd *cmd, const wf_cmd_jobs *jobs, size_t index, void *state,
+                        weft_job *job, wf_cmd_list *kept, weft_error *err) {
+    loading l = {cmd, state, job, kept, false};
+    const wf_jobfile_taker taker = {&l, option_at, set, true, jobs->count > 0};
+    const wf_jobfile_taker own = {&l, option_at, set, true, false};
+    weft_status status = WEFT_OK;
+    for (size_t i = 0; i < jobs->files && !status; i++) {
+        bool list = jobs->count && i == jobs->list;
+        l.listed = false;
+        if (!list || wf_joblist_shares(&jobs->file[i]))
+            status = wf_jobfile_apply(job, &jobs->file[i], &taker, err);
+        l.listed = true;
+        if (!status && list) status = wf_jobfile_apply(job, &jobs->job[index], &own, err);
+    }
+    return status;
+}
+
+/* Reads the next file. There can be one list. */
+static weft_status read_file(const char *path, wf_cmd_jobs *jobs, weft_error *err) {
+    wf_jobfile_text *found;
+    size_t count;
+    weft_status status = wf_jobfile_read(path, &jobs->file[jobs->files], err);
+    if (status) return status;
+    const wf_jobfile_text *file = &jobs->file[jobs->files++];
+    status = wf_joblist_find(file, &found, &count, err);
+    if (status || !count) return status;
+    if (jobs->count) {
+        free(found);
+        return wf_fail(err, WEFT_USAGE,
+                       "%.300s and %.300s are both lists of jobs; give one list at a time",
+                       jobs->file[jobs->list].path, file->path);
+    }
+    jobs->job = found;
+    jobs->count = count;
+    jobs->list = jobs->files - 1;
+    return WEFT_OK;
+}
+
+weft_status wf_cmd_read_jobs(const wf_cmd_list *files, wf_cmd_jobs *jobs, weft_error *err) {
     weft_status status = WEFT_OK;
     for (size_t i = 0; i < files->count && !status; i++)
-        status = wf_jobfile_load(job, files->value[i], &taker, err);
+        status = read_file(files->value[i], jobs, err);
     return status;
+}
+
+void wf_cmd_free_jobs(wf_cmd_jobs *jobs) {
+    for (size_t i = 0; i < jobs->files; i++) wf_jobfile_free(&jobs->file[i]);
+    free(jobs->job);
+    *jobs = (wf_cmd_jobs){.files = 0};
 }
 
 void wf_cmd_forget(wf_cmd_list *kept) {

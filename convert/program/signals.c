@@ -45,6 +45,7 @@ void wf_cmd_catch_signals(weft_job *job) {
     sigaction(SIGTERM, &action, NULL);
     if (!sigaction(SIGHUP, NULL, &old) && old.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
+    if (caught) weft_job_cancel(job); /* between two jobs */
 }
 
 void wf_cmd_ignore_signals(void) {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/job/jobfile.h"
+#include "convert/job/joblist.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -23,8 +23,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     weft_error err = {""};
     weft_job *job = weft_job_new();
     if (!job) abort();
-    const wf_jobfile_taker taker = {job, option_at, set, false};
-    const wf_jobfile_text text = {"some/job.json", (const char *)data, size};
+    const wf_jobfile_taker taker = {job, option_at, set, false, true};
+    const wf_jobfile_text text = {
+        .path = "some/job.json", .bytes = (const char *)data, .size = size};
+    wf_jobfile_text *jobs;
+    size_t count;
+    (void)wf_joblist_find(&text, &jobs, &count, &err);
+    for (size_t i = 0; i < count; i++) (void)wf_jobfile_apply(job, &jobs[i], &taker, &err);
+    free(jobs);
+    err.text[0] = '\0';
     weft_status status = wf_jobfile_apply(job, &text, &taker, &err);
     if (status == WEFT_USAGE && strncmp(err.text, "some/job.json:", 14)) abort();
     if (!status && *err.text) abort();

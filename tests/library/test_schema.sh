@@ -43,6 +43,7 @@ for name in report measure verify info filters rasters profiles plan; do
     check "changes to one of $name are found" \
         python3 "$WEFT_SOURCE/tests/library/schema_check.py" "$schema/$name.json" --sins "${name}1.json"
 done
-check "each schema is of a report" test "$(ls "$schema" | sed 's/\.json//' | sort | tr '\n' ' ')" = \
+# Lists of jobs are in jobs/test_joblist.sh.
+check "each schema is of a report" test "$(ls "$schema" | grep -v '^jobs'  | sed 's/\.json//' | sort | tr '\n' ' ')" = \
     "$(ls -- *1.json | sed -n 's/^\([a-z]*\)1\.json/\1/p' | sort -u | tr '\n' ' ')"
 finish

@@ -26,7 +26,7 @@ from ._library import library_path
 from .clip import Clip, read
 from .errors import (Canceled, Error, Failed, NoMemory, UsageError, WeftError, WeftWarning)
 from .fields import Field, Fields
-from .job import Job, Progress
+from .job import Job, Progress, jobs_in
 from .questions import (composite, convert, filters, info, measure, plan, plot, profiles, render, trace,
                         verify)
 from .report import Report, Reports
@@ -34,5 +34,5 @@ from .tables import (Option, Raster, aperture_response, apertures, options, rast
 
 __all__ = ["Canceled", "Clip", "Error", "Failed", "Field", "Fields", "Job", "NoMemory", "Option", "Progress",
            "Raster", "Report", "Reports", "UsageError", "WeftError", "WeftWarning", "aperture_response",
-           "apertures", "composite", "convert", "filters", "info", "library_path", "measure", "options",
+           "apertures", "composite", "convert", "filters", "info", "jobs_in", "library_path", "measure", "options",
            "plan", "plot", "profiles", "raster", "rasters", "read", "render", "trace", "verify"]

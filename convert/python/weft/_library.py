@@ -102,6 +102,8 @@ FUNCTIONS = {
     "weft_job_set_output": (_STATUS, _HANDLE, c_char_p, _ERROR),
     "weft_job_set": (_STATUS, _HANDLE, c_char_p, c_char_p, _ERROR),
     "weft_job_load": (_STATUS, _HANDLE, c_char_p, _ERROR),
+    "weft_jobs_in": (_STATUS, c_char_p, POINTER(c_size_t), _ERROR),
+    "weft_job_load_nth": (_STATUS, _HANDLE, c_char_p, c_size_t, _ERROR),
     "weft_job_on_progress": (None, _HANDLE, PROGRESS_FN, c_void_p),
     "weft_job_on_warning": (None, _HANDLE, WARNING_FN, c_void_p),
     "weft_job_on_print": (None, _HANDLE, PRINT_FN, c_void_p),

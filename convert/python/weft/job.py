@@ -194,15 +194,31 @@ class Job:
         if name == "raster":
             self._raster = raster(text)
 
-    def load(self, path: Path) -> None:
+    def load(self, path: Path, number: int = 0) -> None:
         """Sets what a job file says (JSON; see `weft convert --help`). Paths in it are relative to its
-        folder; what is set later wins. UsageError names file, line and column, after which the job
-        is good for nothing but `close`."""
+        folder; what is set later wins. Of a file with a list of jobs (`weft.jobs_in`) number says which,
+        from 1. UsageError names file, line and column, after which the job is good for nothing but
+        `close`.
+
+        >>> import json
+        >>> shots = [{"inputs": "scene.lua", "output": f"shot{n}.y4m", "frames": n} for n in (0, 1)]
+        >>> with open("list.json", "w") as out:
+        ...     json.dump({"raster": "36x24@30i,tff", "samples": 1, "command": "render", "jobs": shots}, out)
+        >>> for number in range(1, weft.jobs_in("list.json") + 1):
+        ...     job = weft.Job()
+        ...     job.load("list.json", number)
+        ...     print(job.output, job.run()["frames"])
+        shot0.y4m 1
+        shot1.y4m 1
+        """
         if os.fspath(path) == "-":
             raise UsageError("a job is loaded from a file here, not from standard input")
-        call(lib.weft_job_load, self._idle(), os.fsencode(path))
+        call(lib.weft_job_load_nth, self._idle(), os.fsencode(path), int(number))
         with open(path, encoding="utf-8-sig") as file:
             said = json.load(file)
+        if number:
+            shared, jobs = ({}, said) if isinstance(said, list) else (said, said["jobs"])
+            said = {**shared, **jobs[number - 1]}
         if "raster" in said:
             self._raster = raster(said["raster"])
         if "output" in said:
@@ -284,3 +300,10 @@ class Job:
 
     def __exit__(self, *_: Any) -> None:
         self.close()
+
+
+def jobs_in(path: Path) -> int:
+    """How many jobs a job file holds as a list; 0 of a file that is one job."""
+    count = ctypes.c_size_t()
+    call(lib.weft_jobs_in, os.fsencode(path), ctypes.byref(count))
+    return count.value
