@@ -57,10 +57,10 @@ void wf_model_init(wf_model *m) {
     memset(m, 0, sizeof *m);
     for (int context = 0; context < WF_MODEL_CONTEXTS; context++) {
         uint32_t spread = (uint32_t)(context / 32 + context / 4 % 8),
-                 wide = spread * spread + 1;
+                 wide = spread * spread / 2 + 1;
         for (int s = 0; s < WF_MODEL_SYMBOLS; s++) {
-            uint32_t from = (uint32_t)wf_model_base(s);
-            m->count[context][s] = 1 + 256 * wide / (wide + from * from);
+            uint64_t from = (uint64_t)wf_model_base(s), all = wide + from * from;
+            m->count[context][s] = (uint32_t)(1 + 256 * (uint64_t)wide * wide / (all * all));
         }
         share_out(m, context);
     }

@@ -26,10 +26,10 @@
     this.before = new Uint16Array(CONTEXTS * STRIDE);
     this.slot = new Uint8Array(CONTEXTS * SLOTS);  // the symbol of every slot of every context
     for (var context = 0; context < CONTEXTS; context++) {
-      var spread = (context >> 5) + (context >> 2) % 8, wide = spread * spread + 1;
+      var spread = (context >> 5) + (context >> 2) % 8, wide = (spread * spread >> 1) + 1;
       for (var s = 0; s < SYMBOLS; s++) {
-        var from = base(s);
-        this.count[context * STRIDE + s] = 1 + Math.floor(256 * wide / (wide + from * from));
+        var all = wide + base(s) * base(s);
+        this.count[context * STRIDE + s] = 1 + Math.floor(256 * wide * wide / (all * all));
       }
       this.shareOut(context);
     }
