@@ -1,4 +1,5 @@
 /* Has the plot module draw a picture into a file. */
+#include <stdio.h>
 #include <string.h>
 
 #include "convert/base/module.h"
@@ -14,7 +15,9 @@ weft_status wf_draw(const char *symbol, const void *plot, const char *path, weft
     void *found;
     wf_plot_fn *draw;
     wf_outfile *file;
-    weft_status status = wf_module_symbol("plot", symbol, path, &found, err);
+    char what[600];
+    snprintf(what, sizeof what, "%.500s: a plot", path);
+    weft_status status = wf_module_symbol("plot", symbol, what, &found, err);
     if (status) return status;
     memcpy(&draw, &found, sizeof draw);
     status = wf_outfile_open(path, true, &file, err);

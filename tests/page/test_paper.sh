@@ -5,6 +5,7 @@
 not_sanitized never
 paper=$WEFT_SOURCE/examples/paper
 needs python3
+needs_module plot
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "no chromium"
 
 # A program that lacks a command ends the build, says which, and leaves no page.
