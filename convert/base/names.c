@@ -40,10 +40,11 @@ const char *wf_names_next(const wf_names *names, const char *name) {
     return next < names->text + names->bytes ? next : NULL;
 }
 
-/* Some file systems do not tell what an entry is, and links may lead to folders. */
+/* Some file systems do not tell what an entry is. Links are not followed: there may be a
+ * million. */
 static bool is_folder(DIR *dir, const struct dirent *entry) {
     struct stat about;
-    if (entry->d_type != DT_UNKNOWN && entry->d_type != DT_LNK) return entry->d_type == DT_DIR;
+    if (entry->d_type != DT_UNKNOWN) return entry->d_type == DT_DIR;
     return !fstatat(dirfd(dir), entry->d_name, &about, 0) && S_ISDIR(about.st_mode);
 }
 
