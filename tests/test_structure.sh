@@ -96,8 +96,10 @@ convert/sound       : filters/* convert/base convert/job convert/media convert/r
 convert/write       : filters/* color/* convert/base convert/job convert/media convert/media/*
 convert/finish      : filters/* color/* convert/base convert/job convert/read convert/sound convert/write
 convert/run/time    : filters/* color/* convert/base convert/job convert/media convert/read convert/finish convert/video
-convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time
-convert/plan        : filters/* convert/base convert/job convert/media convert/read convert/run convert/run/time
+convert/run/sum     : filters/* tracer/* convert/base convert/job convert/media convert/read convert/finish
+convert/run/source  : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/video convert/finish convert/run/time convert/run/sum
+convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time convert/run/sum convert/run/source
+convert/plan        : filters/* convert/base convert/job convert/media convert/read convert/run convert/run/source convert/run/time
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
@@ -150,7 +152,7 @@ against_the_table()
 includes=$(quoted_includes)
 none "every import is one that the table allows" "$(echo "$includes" | against_the_table)"
 none "an import that goes up is found" \
-    "$(echo 'filters/base/isa.c convert/run/flow.h' | against_the_table | grep -q 'isa.c includes' || echo 'it is not')"
+    "$(echo 'filters/base/isa.c convert/run/sum/flow.h' | against_the_table | grep -q 'isa.c includes' || echo 'it is not')"
 none "hot loops begin alike, and are found by WF_ISA_DISPATCH alone" \
     "$(find "${folders[@]}" -name '*_isa.c' | xargs grep -L '^#include "filters/base/isa_file.h"$'
         grep -rn -E '# *define WF_ISA\>|_v[134]\>|__builtin_cpu_' "${folders[@]}" --include='*.[ch]' |

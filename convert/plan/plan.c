@@ -9,7 +9,7 @@
 #include "convert/base/values.h"
 #include "convert/plan/refine.h"
 #include "convert/read/rate.h"
-#include "convert/run/fitting.h"
+#include "convert/run/source/fitting.h"
 #include "convert/run/time/picture_rate.h"
 
 void wf_plan_free(wf_plan *plan) {

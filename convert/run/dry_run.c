@@ -7,7 +7,7 @@
 
 #include "convert/base/pattern.h"
 #include "convert/run/dry_run_parts.h"
-#include "convert/run/needs.h"
+#include "convert/run/sum/needs.h"
 #include "filters/raster/timing.h"
 
 void wf_dry_run_free(wf_dry_run *d) {

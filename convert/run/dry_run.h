@@ -1,7 +1,7 @@
 #ifndef WF_CONVERT_RUN_DRY_RUN_H
 #define WF_CONVERT_RUN_DRY_RUN_H
 
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 
 /* --dry-run: what a run would do. Nothing is read but headers, and nothing is written. */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "convert/finish/frames.h"
-#include "convert/run/gathered_line.h"
+#include "convert/run/sum/gathered_line.h"
 #include "filters/raster/timing.h"
 
 struct weft_fields {

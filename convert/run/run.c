@@ -1,13 +1,13 @@
 /* A job from beginning to end:
  * job -> source -> needs of field n -> accumulate -> color -> chroma -> quantize -> sink. */
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 
 #include <stdlib.h>
 
 #include "color/codes/r103.h"
 #include "convert/base/clock.h"
 #include "convert/run/dry_run.h"
-#include "convert/run/needs.h"
+#include "convert/run/sum/needs.h"
 #include "convert/finish/overwrite_check.h"
 #include "convert/run/trace.h"
 

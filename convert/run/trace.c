@@ -2,7 +2,7 @@
 #include "convert/run/trace.h"
 
 #include "convert/base/pattern.h"
-#include "convert/run/source_scene.h"
+#include "convert/run/source/source_scene.h"
 
 static weft_status check_output(const weft_job *job, const wf_setup *s, weft_error *err) {
     if (s->output.kind->layout != WF_LINEAR)

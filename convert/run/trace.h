@@ -1,7 +1,7 @@
 #ifndef WF_CONVERT_RUN_TRACE_H
 #define WF_CONVERT_RUN_TRACE_H
 
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 
 /* weft trace: stores what a scene shows, for weft convert to read: the samples themselves, a
  * deep EXR file a frame, or subframes. */

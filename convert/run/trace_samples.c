@@ -7,7 +7,7 @@
 
 #include "convert/base/pattern.h"
 #include "convert/run/dry_run.h"
-#include "convert/run/source_scene.h"
+#include "convert/run/source/source_scene.h"
 #include "convert/run/trace.h"
 #include "convert/write/deep_write.h"
 

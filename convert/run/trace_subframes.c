@@ -3,7 +3,7 @@
 
 #include "convert/base/values.h"
 #include "convert/run/dry_run.h"
-#include "convert/run/source_scene.h"
+#include "convert/run/source/source_scene.h"
 #include "convert/run/trace.h"
 #include "convert/write/sink.h"
 

@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_SOURCE_H
-#define WF_CONVERT_RUN_SOURCE_H
+#ifndef WF_CONVERT_RUN_SUM_SOURCE_H
+#define WF_CONVERT_RUN_SUM_SOURCE_H
 
 #include "convert/job/report.h"
 #include "convert/finish/crew.h"

@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_SUBFRAME_CHECK_H
-#define WF_CONVERT_RUN_SUBFRAME_CHECK_H
+#ifndef WF_CONVERT_RUN_SOURCE_SUBFRAME_CHECK_H
+#define WF_CONVERT_RUN_SOURCE_SUBFRAME_CHECK_H
 
 #include "convert/job/job.h"
 #include "convert/read/source.h"

@@ -1,6 +1,6 @@
 /* Where a picture lies on the raster: its size, the shape of its pixels, and how it is fitted.
  */
-#include "convert/run/fitting.h"
+#include "convert/run/source/fitting.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_GATHERED_LINE_H
-#define WF_CONVERT_RUN_GATHERED_LINE_H
+#ifndef WF_CONVERT_RUN_SUM_GATHERED_LINE_H
+#define WF_CONVERT_RUN_SUM_GATHERED_LINE_H
 
 #include "convert/job/job.h"
 #include "filters/gather/samples.h"

@@ -1,8 +1,8 @@
-#ifndef WF_CONVERT_RUN_PICTURES_H
-#define WF_CONVERT_RUN_PICTURES_H
+#ifndef WF_CONVERT_RUN_SUM_PICTURES_H
+#define WF_CONVERT_RUN_SUM_PICTURES_H
 
 #include "convert/read/source.h"
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 #include "filters/resample/resampler.h"
 
 /* Fields summed from pictures: a unit of time is one picture, read band by band. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "convert/base/clock.h"
-#include "convert/run/pictures.h"
+#include "convert/run/sum/pictures.h"
 
 /* Pictures that are open together. */
 typedef struct batch {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "convert/base/clock.h"
-#include "convert/run/gathering.h"
+#include "convert/run/sum/gathering.h"
 
 /* ---- Who takes a unit's samples ---- */
 

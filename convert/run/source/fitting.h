@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_FITTING_H
-#define WF_CONVERT_RUN_FITTING_H
+#ifndef WF_CONVERT_RUN_SOURCE_FITTING_H
+#define WF_CONVERT_RUN_SOURCE_FITTING_H
 
 #include "convert/job/job.h"
 #include "convert/media/image.h"

@@ -1,5 +1,5 @@
 /* A scene as a source: a file of the scene language, traced where fields look. */
-#include "convert/run/source_scene.h"
+#include "convert/run/source/source_scene.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "convert/base/range.h"
 #include "convert/read/picture.h"
-#include "convert/run/gathering.h"
+#include "convert/run/sum/gathering.h"
 #include "tracer/scene/load.h"
 
 static weft_status takes(const weft_job *job, bool *takes, weft_error *err) {

@@ -1,6 +1,6 @@
 /* Sequences of which some subframes exist in a rectangle alone: spans of time, and what each
  * shows. */
-#include "convert/run/refined.h"
+#include "convert/run/source/refined.h"
 
 #include <stdlib.h>
 #include <string.h>

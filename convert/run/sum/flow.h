@@ -1,10 +1,10 @@
-#ifndef WF_CONVERT_RUN_FLOW_H
-#define WF_CONVERT_RUN_FLOW_H
+#ifndef WF_CONVERT_RUN_SUM_FLOW_H
+#define WF_CONVERT_RUN_SUM_FLOW_H
 
 #include "convert/finish/crew.h"
 #include "convert/finish/frames.h"
 #include "convert/finish/setup.h"
-#include "convert/run/source.h"
+#include "convert/run/sum/source.h"
 
 /* All that one weft_job_run holds. What is counted in it is read once, after it. */
 struct wf_run {

@@ -1,5 +1,5 @@
 /* Fields summed from pictures: how many are in hand at once, their memory, and their end. */
-#include "convert/run/pictures.h"
+#include "convert/run/sum/pictures.h"
 
 #include <stdlib.h>
 #include <string.h>

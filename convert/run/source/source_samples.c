@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "convert/read/deep_read.h"
-#include "convert/run/gathering.h"
+#include "convert/run/sum/gathering.h"
 #include "filters/raster/timing.h"
 
 /* run->source; the files are setup.sequence. */

@@ -1,5 +1,5 @@
 /* Whether a subframe is of the same kind as the first of its sequence. */
-#include "convert/run/subframe_check.h"
+#include "convert/run/source/subframe_check.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_REFINED_H
-#define WF_CONVERT_RUN_REFINED_H
+#ifndef WF_CONVERT_RUN_SOURCE_REFINED_H
+#define WF_CONVERT_RUN_SOURCE_REFINED_H
 
 #include "convert/job/job.h"
 #include "convert/read/rate.h"

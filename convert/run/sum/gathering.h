@@ -1,10 +1,10 @@
-#ifndef WF_CONVERT_RUN_GATHERING_H
-#define WF_CONVERT_RUN_GATHERING_H
+#ifndef WF_CONVERT_RUN_SUM_GATHERING_H
+#define WF_CONVERT_RUN_SUM_GATHERING_H
 
 #include <stdatomic.h>
 
-#include "convert/run/flow.h"
-#include "convert/run/tile_cache.h"
+#include "convert/run/sum/flow.h"
+#include "convert/run/sum/tile_cache.h"
 #include "filters/gather/samples.h"
 
 /* Fields summed from samples: a unit of time is turned to, and its samples are handed over band

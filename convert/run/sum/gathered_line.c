@@ -1,5 +1,5 @@
 /* Lines of gathered samples, and what fills the pixels that no sample reached. */
-#include "convert/run/gathered_line.h"
+#include "convert/run/sum/gathered_line.h"
 
 #include <inttypes.h>
 

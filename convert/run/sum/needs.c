@@ -1,8 +1,8 @@
 /* From what fields need to the units that are read for them, in the order of time. The run and
  * its dry run walk alike. */
-#include "convert/run/needs.h"
+#include "convert/run/sum/needs.h"
 
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 
 wf_walk wf_walk_begin(void) {
     return (wf_walk){.next_unit = INT64_MIN};

@@ -1,5 +1,5 @@
 /* Sums of one band of rows, and the cache of those of tiles in which nothing moves. */
-#include "convert/run/tile_cache.h"
+#include "convert/run/sum/tile_cache.h"
 
 #include <stdlib.h>
 

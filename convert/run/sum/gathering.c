@@ -1,11 +1,11 @@
 /* Fields summed from samples: how many are in flight, their memory, and their end. */
-#include "convert/run/gathering.h"
+#include "convert/run/sum/gathering.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/clock.h"
-#include "convert/run/gathered_line.h"
+#include "convert/run/sum/gathered_line.h"
 
 static int lines_of(const wf_run *run, int64_t field) {
     const wf_raster *raster = &run->job->raster;

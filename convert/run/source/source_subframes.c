@@ -4,12 +4,12 @@
 #include <stdlib.h>
 
 #include "convert/read/rate.h"
-#include "convert/run/fitting.h"
+#include "convert/run/source/fitting.h"
 #include "convert/run/time/picture_rate.h"
 #include "convert/run/time/planned.h"
-#include "convert/run/pictures.h"
-#include "convert/run/refined.h"
-#include "convert/run/subframe_check.h"
+#include "convert/run/sum/pictures.h"
+#include "convert/run/source/refined.h"
+#include "convert/run/source/subframe_check.h"
 #include "convert/run/time/timecode_start.h"
 
 /* run->source; the files are setup.sequence. */

@@ -1,7 +1,7 @@
-#ifndef WF_CONVERT_RUN_NEEDS_H
-#define WF_CONVERT_RUN_NEEDS_H
+#ifndef WF_CONVERT_RUN_SUM_NEEDS_H
+#define WF_CONVERT_RUN_SUM_NEEDS_H
 
-#include "convert/run/source.h"
+#include "convert/run/sum/source.h"
 
 /* A walk through the units that groups of fields need, in ascending order: each is given once,
  * or, where no fields are carried from group to group, once to every group that needs it. */

@@ -1,5 +1,5 @@
 /* The table of sources. */
-#include "convert/run/source.h"
+#include "convert/run/sum/source.h"
 
 /* The last takes whatever is left. */
 static const wf_source_kind *const kinds[] = {

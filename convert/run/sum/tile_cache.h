@@ -1,5 +1,5 @@
-#ifndef WF_CONVERT_RUN_TILE_CACHE_H
-#define WF_CONVERT_RUN_TILE_CACHE_H
+#ifndef WF_CONVERT_RUN_SUM_TILE_CACHE_H
+#define WF_CONVERT_RUN_SUM_TILE_CACHE_H
 
 #include "filters/gather/samples.h"
 

@@ -1,7 +1,7 @@
-#ifndef WF_CONVERT_RUN_SOURCE_SCENE_H
-#define WF_CONVERT_RUN_SOURCE_SCENE_H
+#ifndef WF_CONVERT_RUN_SOURCE_SOURCE_SCENE_H
+#define WF_CONVERT_RUN_SOURCE_SOURCE_SCENE_H
 
-#include "convert/run/flow.h"
+#include "convert/run/sum/flow.h"
 #include "tracer/sample/sampling.h"
 
 /* What trace, which stores what it samples, has of the source that is a scene. */
