@@ -27,7 +27,7 @@ typedef struct finisher {
 struct wf_frames {
     wf_crew *crew;
     const wf_setup *setup;
-    const wf_raster *raster; /* as it is written */
+    const wf_raster *raster; /* as fields are made */
     wf_nearest *flicker;     /* NULL: it is not held */
     int64_t field;           /* whose lines are taken from there */
     wf_outputs outputs;
@@ -121,7 +121,7 @@ weft_status wf_frames_new(wf_crew *crew, const wf_setup *setup, int fields, wf_f
                           weft_error *err) {
     wf_frames *f = calloc(1, sizeof *f);
     if (!f) return wf_fail(err, WEFT_NO_MEMORY, "no memory for frames");
-    *f = (wf_frames){.crew = crew, .setup = setup, .raster = &setup->raster};
+    *f = (wf_frames){.crew = crew, .setup = setup, .raster = &setup->made};
     f->count = slots_for(crew->job, fields);
     f->planes = planes_of(setup);
     if (!make_planes(f) || !make_finishers(f)) {

@@ -48,7 +48,8 @@ static size_t plane_samples(const wf_nearest_desc *d) {
 }
 
 static size_t own_samples(const wf_nearest_desc *d) {
-    return d->channels ? 0 : (LUMINANCE + 1) * width_of(d) * ((size_t)d->raster->lines / 2 + 1);
+    size_t lines = (size_t)wf_raster_field_lines(d->raster, 0);
+    return d->channels ? 0 : (LUMINANCE + 1) * width_of(d) * lines;
 }
 
 static wf_least_desc least_of(const wf_nearest_desc *d) {

@@ -18,7 +18,7 @@ typedef struct wf_nearest_desc {
     wf_viewing viewing;
     bool channels; /* R, G, B and alpha alike, as linear light; else luminance as shown */
     wf_displayed shown;
-    const wf_raster *raster; /* as it is written: which lines are a field's own */
+    const wf_raster *raster; /* which lines are a field's own */
     int fields;              /* that are in hand at once */
 } wf_nearest_desc;
 

@@ -242,7 +242,9 @@ static weft_status settle_sink(const weft_job *job, wf_setup *s, weft_error *err
     if (!status) status = check_alpha(job, kind, err);
     if (status) return status;
     s->raster = job->raster;
-    s->raster.all_lines = false;
+    s->raster.all_lines = s->raster.whole_frames = false;
+    s->made = job->raster;
+    s->made.all_lines = false;
     s->output_options = describe_sink(job, s, kind, bits, full);
     describe_codes(job, s, bits, full);
     if (s->output.ops->check) status = s->output.ops->check(&s->output_options, err);

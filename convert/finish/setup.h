@@ -28,6 +28,7 @@ typedef struct wf_setup {
     wf_rational speed;   /* of pictures as they are shown, that clock's being 1; {0, 0}: 1 */
 
     wf_raster raster; /* of what is written: the job's, with the matrix of the codes */
+    wf_raster made;   /* the same, whose lines are those that a field is made to have */
     wf_output output;
     wf_output_options output_options;
     wf_output key; /* the key's, beside the fill that output is; {NULL}: there is none */

@@ -50,7 +50,7 @@ void wf_setup_flicker(const weft_job *job, wf_setup *s) {
     const wf_space *space = wf_space_find(s->color_space, why, sizeof why);
     bool linear = s->output.kind->layout == WF_LINEAR,
          asked = job->to || job->display || job->look;
-    s->flicker = describe(job, &s->raster);
+    s->flicker = describe(job, &s->made);
     if (linear && !asked)
         s->flicker.shown = wf_displayed_of_light(s->output_options.primaries
                                                      ? s->output_options.primaries

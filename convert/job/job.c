@@ -130,6 +130,7 @@ void wf_job_settle(weft_job *job) {
     settle_aperture(job);
     job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
     job->raster.all_lines = wf_job_holds_flicker(job);
+    job->raster.whole_frames = false;
 }
 
 typedef struct rule {

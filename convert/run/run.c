@@ -134,7 +134,7 @@ static void tell(const wf_run *run) {
     report->coded = run->setup.raster;
     if (run->setup.output.kind) report->raster = &report->coded;
     report->frames = run->crew.done;
-    report->fields = run->crew.done * wf_raster_fields_per_frame(&run->job->raster);
+    report->fields = run->crew.done * wf_raster_fields_per_frame(&report->coded);
     report->resample_s = times.resample_s;
     report->color_s = times.color_s;
     if (run->frames) wf_frames_tell(run->frames, report);
@@ -197,6 +197,9 @@ weft_status weft_job_run(weft_job *job, weft_error *err) {
     wf_report report = {.command = wf_command_name(job->command), .raster = &job->raster};
     weft_status status = wf_job_check(job, err);
     if (!status) wf_job_settle(job);
+    /* Both fields of a segmented frame would be found to be the same picture. */
+    job->raster.whole_frames =
+        job->raster.all_lines && job->raster.scan == WF_SEGMENTED && job->command != WF_TRACE;
     if (!status) status = run_job(job, &report, err);
     if (!status) tell_outside(job, &report.legal.counts);
     report.wall_s = wf_now_s() - start;

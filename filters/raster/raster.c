@@ -247,21 +247,26 @@ bool wf_raster_parse(const char *text, wf_raster *out, char *why, size_t why_siz
 /* ---- Fields ---- */
 
 int wf_raster_fields_per_frame(const wf_raster *raster) {
-    return raster->scan == WF_PROGRESSIVE ? 1 : 2;
+    return raster->scan == WF_PROGRESSIVE || raster->whole_frames ? 1 : 2;
+}
+
+/* Fields that come in pairs of one instant. */
+static bool is_paired(const wf_raster *raster) {
+    return raster->scan == WF_SEGMENTED && !raster->whole_frames;
 }
 
 int64_t wf_raster_instant(const wf_raster *raster, int64_t field) {
     if (raster->pulldown) return wf_floor_div(2 * field + 1, 5);
-    return raster->scan == WF_SEGMENTED ? wf_floor_div(field, 2) : field;
+    return is_paired(raster) ? wf_floor_div(field, 2) : field;
 }
 
 int64_t wf_raster_first_field(const wf_raster *raster, int64_t instant) {
     if (raster->pulldown) return wf_floor_div(5 * instant, 2);
-    return raster->scan == WF_SEGMENTED ? 2 * instant : instant;
+    return is_paired(raster) ? 2 * instant : instant;
 }
 
 int wf_raster_parity(const wf_raster *raster, int64_t field) {
-    if (raster->scan == WF_PROGRESSIVE || raster->all_lines) return 0;
+    if (wf_raster_line_step(raster) == 1) return 0;
     return (field % 2 == 0) == raster->top_first ? 0 : 1;
 }
 

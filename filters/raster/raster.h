@@ -30,6 +30,9 @@ typedef struct wf_raster {
     /* Fields are made with all lines of the frame at their instant, of which they keep their
      * own later: parity 0, line step 1. Never set by wf_raster_parse. */
     bool all_lines;
+    /* Both fields of a segmented frame are made as one field of all its lines, which has the
+     * frame's number. Never set by wf_raster_parse. */
+    bool whole_frames;
 } wf_raster;
 
 /* The named rasters, by index; NULL past the end. Static storage. */

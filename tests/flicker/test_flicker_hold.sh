@@ -16,6 +16,12 @@ for scene in still carousel panorama slow_edges wheel; do
     done
 done
 
+# Both fields of a segmented frame are one picture, of which each column is solved once.
+weft render "$scenes/wheel.lua" "${one[@]}" --flicker-limit 0.01 -o one.y4m --report one.json
+solved=$(grep -o '"columns_solved": [0-9]*' one.json | grep -o '[0-9]*$')
+check "columns are solved once" test "$solved" -gt 90 -a "$solved" -le 180
+check "and are of two fields" grep -q '"fields": 2' one.json
+
 # A weight, and the aperture that is one, make the same bytes; line is under both.
 weft render "$scenes/still.lua" "${small[@]}" --flicker-weight 4 -o weight.y4m
 weft render "$scenes/still.lua" "${small[@]}" --aperture least:4 -o aperture.y4m

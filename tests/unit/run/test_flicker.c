@@ -200,7 +200,7 @@ static void segmented_frames_are_one_picture(void **state) {
     job_done(
         "raster=40x48@30psf overwrite temporal-width=0 subframe-rate=30 flicker-limit=0.02",
         "out.####.exr", NULL);
-    for (int n = 0; n < 4; n++) {
+    for (int n = 0; n < 4; n++) { /* which is made once, and written as two fields */
         float *got = read_frame(n, 3), want[COUNT];
         for (int i = 0; i < COUNT; i++) want[i] = (float)gray_noise(n, 0, i % WIDTH, i / WIDTH);
         nearest(want, 0, 0.02, INFINITY);
