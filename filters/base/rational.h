@@ -34,8 +34,9 @@ wf_rational wf_ratio_div(wf_rational a, wf_rational b);
 /* floor(a * n), exact; n >= 0, a >= 0 and given. INT64_MAX where it does not fit. */
 int64_t wf_ratio_floor_mul(wf_rational a, int64_t n);
 
-/* "240", "480000/1001", "0.25" (up to nine decimals), "10:11". False if text is anything else
- * or does not fit; *out is then untouched. */
+/* "240", "480000/1001", "0.25", "10:11". Up to nine decimals are exact; more are the simplest
+ * ratio that is the same double, so that 0.3333333333333333 is 1/3. False if text is anything
+ * else or does not fit; *out is then untouched. */
 bool wf_ratio_parse(const char *text, wf_rational *out);
 
 /* As wf_ratio_parse, and the broadcast abbreviations 23.976 (23.98), 29.97, 47.95, 59.94,
