@@ -273,7 +273,10 @@ void release(void *self) {
 // ---- Opening ----
 
 Config load(const char *file) {
-    if (given(file)) return OCIO::Config::CreateFromFile(file);
+    if (given(file)) {
+        check_config_file(file);
+        return OCIO::Config::CreateFromFile(file);
+    }
     std::istringstream text(shipped_config);
     return OCIO::Config::CreateFromStream(text);
 }

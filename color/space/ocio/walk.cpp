@@ -9,6 +9,7 @@
 namespace {
 
 constexpr size_t deepest = 100;
+constexpr double most_steps = 10000;
 
 bool given(const char *text) {
     return text && *text;
@@ -56,9 +57,40 @@ bool Walk::enter(const std::string &what, bool out) {
         throw std::runtime_error("the " + what + " is made of itself (" + way() + ")");
     if (path_.size() == deepest)
         throw std::runtime_error("the " + what + " is made of too many others");
-    if (!seen_.insert(key).second) return false;
+    const auto seen = steps_.find(key);
+    if (seen != steps_.end()) {
+        count(seen->second);
+        return false;
+    }
     path_.push_back(key);
+    before_.push_back(step_);
     return true;
+}
+
+void Walk::leave() {
+    steps_[path_.back()] = step_ - before_.back();
+    path_.pop_back();
+    before_.pop_back();
+}
+
+// The library makes all steps again wherever they are needed.
+void Walk::count(double steps) {
+    step_ += steps;
+    if (step_ <= most_steps) return;
+    throw std::runtime_error(
+        (path_.empty() ? std::string("it")
+                       : "the " + path_.front().substr(0, path_.front().rfind(' '))) +
+        " is made of more than " + std::to_string(int(most_steps)) + " steps");
+}
+
+void Walk::table(const char *name) {
+    std::string path;
+    try {
+        path = config_->getCurrentContext()->resolveFileLocation(name);
+    } catch (const OCIO::Exception &) {
+        return; // the library says so
+    }
+    check_table_file(path);
 }
 
 std::string Walk::way() const {
@@ -70,6 +102,9 @@ std::string Walk::way() const {
 
 void Walk::transform(const OCIO::ConstTransformRcPtr &t, bool inverse) {
     if (!t) return;
+    count(1);
+    if (auto file = std::dynamic_pointer_cast<const OCIO::FileTransform>(t))
+        table(file->getSrc());
     inverse ^= t->getDirection() == OCIO::TRANSFORM_DIR_INVERSE;
     if (auto group = std::dynamic_pointer_cast<const OCIO::GroupTransform>(t))
         for (int i = 0; i < group->getNumTransforms(); i++)

@@ -2,6 +2,7 @@
 #ifndef WF_COLOR_SPACE_OCIO_WALK_HPP
 #define WF_COLOR_SPACE_OCIO_WALK_HPP
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,8 +11,14 @@
 
 namespace OCIO = OCIO_NAMESPACE;
 
+// Refuse what would never end or fill memory as it is read: pipes and devices, files of absurd
+// size, YAML that doubles. A path that is not there is left to OpenColorIO.
+void check_config_file(const char *path);
+void check_table_file(const std::string &path);
+
 // Walks through what a conversion is made of before OpenColorIO does, which does not return
-// from a space that needs itself. Throws what is made of itself, by name.
+// from a space that needs itself, or that needs another twice, which needs another twice, and
+// so on. Throws what is made of itself or of too much, by name.
 class Walk {
   public:
     explicit Walk(const OCIO::ConstConfigRcPtr &config) : config_(config) {}
@@ -22,7 +29,9 @@ class Walk {
 
   private:
     bool enter(const std::string &what, bool out);
-    void leave() { path_.pop_back(); }
+    void leave();
+    void count(double steps);
+    void table(const char *name);
     std::string way() const;
     void transform(const OCIO::ConstTransformRcPtr &t, bool inverse);
     void between(const char *from, const char *to, bool inverse);
@@ -31,8 +40,10 @@ class Walk {
     void view_transform(const char *name);
 
     const OCIO::ConstConfigRcPtr config_;
-    std::vector<std::string> path_; // what is being walked through, from the outside in
-    std::set<std::string> seen_;
+    std::vector<std::string> path_;       // what is being walked through, from the outside in
+    std::vector<double> before_;          // steps before each of it
+    std::map<std::string, double> steps_; // of what has been walked through
+    double step_ = 0;
 };
 
 #endif
