@@ -4,7 +4,7 @@
   "use strict";
   var FADE = 0.14;                 // what is left of a tube's line after one field
   var MODES = ["crt", "bob", "weave", "frame"];
-  var KEPT_FIELDS = 6;             // as R G B A, of each variant
+  var KEPT_BYTES = 160e6;          // of fields as R G B A, of each variant
   var root = document.getElementById("player");
   var data = JSON.parse(document.getElementById("player-data").textContent);
   if (!root || !data.clips) return;
@@ -56,14 +56,13 @@
   function pixels(variant, field) {
     var clip = player.clip, bytes = clip.width * clip.lines * 2;
     if (variant.pixels) return variant.pixels.subarray(field * bytes, (field + 1) * bytes);
-    var kept = variant.kept, found = kept.filter(function (k) { return k.field === field; })[0];
-    if (!found) {
-      found = { field: field, bytes: window.weftUnpack.rgba(
-        variant.unpacker.fields[field], clip.width, clip.lines / 2, variant.widths, variant.colors) };
-      kept.push(found);
-      if (kept.length > KEPT_FIELDS) kept.shift();
+    if (!variant.kept[field]) {
+      if (variant.order.length * bytes > KEPT_BYTES) delete variant.kept[variant.order.shift()];
+      variant.order.push(field);
+      variant.kept[field] = window.weftUnpack.rgba(variant.unpacker.fields[field], clip.width, clip.lines / 2,
+                                                   variant.widths, variant.colors);
     }
-    return found.bytes;
+    return variant.kept[field];
   }
 
   // Bytes R G B A of a line of a field, as weft made it.
@@ -189,7 +188,8 @@
           return;
         }
         unpacker.data = unpacker.models = unpacker.residuals = null;
-        variant.kept = [];
+        variant.kept = {};
+        variant.order = [];
         variant.unpacker = unpacker;
         resolve(variant);
       }
@@ -324,18 +324,25 @@
 
   player.setRate = function (rate) { player.rate = Number(rate); started = player.dropped = player.shown = 0; };
 
+  // CSS pixels a pixel: whole numbers of the screen's. The picture fits where it can without being scaled down.
+  function scale() {
+    if (player.zoom !== "fit") return player.zoom * window.exactScale();
+    var ratio = window.devicePixelRatio || 1;
+    return Math.max(1, Math.floor((root.clientWidth - 34) * ratio / player.clip.width)) / ratio;
+  }
+
   function size() {
-    var scale = player.zoom * window.exactScale();
-    root.style.setProperty("--raster", player.clip.width * window.exactScale() + "px");
-    root.style.setProperty("--shown", player.clip.width * scale + "px");
+    var by = scale();
+    root.style.setProperty("--raster", player.clip.width * Math.min(by, window.exactScale()) + "px");
+    root.style.setProperty("--shown", player.clip.width * by + "px");
     root.querySelectorAll(".screen canvas").forEach(function (canvas) {
-      canvas.style.width = player.clip.width * scale + "px";
-      canvas.style.height = player.clip.lines * scale + "px";
+      canvas.style.width = player.clip.width * by + "px";
+      canvas.style.height = player.clip.lines * by + "px";
     });
   }
 
   player.setZoom = function (zoom) {
-    player.zoom = Math.max(1, Math.min(4, Number(zoom)));
+    player.zoom = zoom === "fit" ? zoom : Math.max(1, Math.min(4, Number(zoom) || 1));
     root.querySelector('[data-set="zoom"]').value = String(player.zoom);
     size();
   };
@@ -364,8 +371,8 @@
                   layout: player.setLayout, wipe: player.setWipe, heat: player.setHeat };
   var keys = {
     " ": actions.play,
-    "+": function () { player.setZoom(player.zoom + 1); },
-    "=": function () { player.setZoom(player.zoom + 1); },
+    "+": function () { player.setZoom((Number(player.zoom) || 0) + 1); },
+    "=": function () { player.setZoom((Number(player.zoom) || 0) + 1); },
     "-": function () { player.setZoom(player.zoom - 1); },
     s: function () { player.setLayout(player.layout === "side" ? "wipe" : "side"); },
     "[": function () { player.setWipe(player.wipe - 5); },
@@ -418,5 +425,6 @@
   root.classList.toggle("one", data.clips.length < 2);
   player.loaded = player.setClip(data.clips[0].id);
   // Two rasters that the window cannot hold beside each other are easier to compare as a wipe.
+  if (data.fit && window.innerWidth < player.clip.width * window.exactScale() + 34) player.setZoom("fit");
   if (data.fit && window.innerWidth < 2 * player.clip.width * window.exactScale() + 90) player.setLayout("wipe");
 }());

@@ -160,14 +160,17 @@ def screens(page):
                   mobile=False)
         page.run("new Promise(function (done) { window.dispatchEvent(new Event('resize')); "
                  "requestAnimationFrame(function () { requestAnimationFrame(done); }); })")
-        for layout in ("side", "wipe"):
-            page.run(f"weftPlayer.setLayout('{layout}')")
+        for layout, zoom in (("side", "fit"), ("side", 1), ("wipe", "fit"), ("wipe", 1)):
+            page.run(f"weftPlayer.setLayout('{layout}'); weftPlayer.setZoom('{zoom}')")
             wide = page.run("document.documentElement.scrollWidth")
-            check(f"it fits {width} pixels, {layout}", wide <= width, str(wide))
+            check(f"it fits {width} pixels, {layout}, {zoom}", wide <= width, str(wide))
             scales = page.run("""Array.from(document.querySelectorAll('#player canvas')).filter(
                 function (c) { return c.offsetParent; }).map(function (c) { return c.getBoundingClientRect().width * window.devicePixelRatio / c.width; })""")
             check(f"pixels are whole at {width}, {ratio}", all(abs(s - max(1, round(s))) < 0.01 for s in scales),
                   str(scales))
+            box = page.run("""[document.querySelector('#player canvas').getBoundingClientRect().width,
+                               document.querySelector('#player .screens').clientWidth]""")
+            check(f"what fits does, at {width}, {ratio}", zoom == 1 or box[0] <= box[1] + 1 or scales[0] < 1.01, str(box))
         small = page.run("""Array.from(document.querySelectorAll('#player button, #player select')).filter(
             function (e) { return e.offsetParent && e.getBoundingClientRect().height < 24; }).length""")
         check(f"nothing is too small to touch at {width}", small == 0, str(small))
