@@ -124,10 +124,10 @@ WEFT_API weft_status weft_job_plan(weft_job *job, const char *format, const char
 
 /* ---- Questions ------------------------------------------------------------------------------
  *
- * What the commands measure, verify, info, filters, composite and plot do. They ask about the
- * inputs of a job, whose progress and warning functions, weft_job_cancel, and options (of them
- * max-memory, and of composite also those of the output) count as for weft_job_run. Afterwards
- * weft_job_report is what the command prints with --json, and of composite as after
+ * What the commands measure, verify, info, filters, composite, page and plot do. They ask about
+ * the inputs of a job, whose progress and warning functions, weft_job_cancel, and options (of
+ * them max-memory, and of composite also those of the output) count as for weft_job_run.
+ * Afterwards weft_job_report is what the command prints with --json, and of composite as after
  * weft_job_run; share/weft/schema describes each. A job can be asked again and otherwise. Its
  * command does not matter.
  *
@@ -191,6 +191,16 @@ typedef struct weft_composite {
 } weft_composite;
 WEFT_API weft_status weft_job_composite(weft_job *job, const weft_composite *asked,
                                         weft_error *err);
+
+/* weft page: one page of HTML that shows the inputs, finished video, written to the job's
+ * output; of the job overwrite and max-memory count. There is no report. */
+typedef struct weft_page {
+    size_t size;
+    const char *raster, *frames, *title, *max_size;
+    const char *labels;                  /* of the clips in order, with newlines between them */
+    const char *preview, *preview_frame; /* also, or without an output only, a PNG of a frame */
+} weft_page;
+WEFT_API weft_status weft_job_page(weft_job *job, const weft_page *asked, weft_error *err);
 
 /* weft plot: draws what the JSON file at path tells (weft plot --help) into output, .svg or
  * .png, which replaces what is there. */

@@ -104,7 +104,7 @@ convert/check       : filters/* color/* convert/base convert/job convert/media c
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
 convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/check
-convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot
+convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot convert/page
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/ask convert/page
 convert/program/plan : convert/base convert/job convert/plan convert/program
 convert/program/page : filters/* convert/base convert/job convert/page convert/program

@@ -95,6 +95,10 @@ weft_status wf_cmd_question(const wf_cmd *cmd, int argc, char **argv, void *stat
 /* What they end with: prints the report, if print and if there is one, and returns status. */
 weft_status wf_cmd_answer(weft_job *job, bool print, weft_status status);
 
+/* The values of an option that repeats as one text, with a character between them (free());
+ * NULL: it was not given. */
+weft_status wf_cmd_join(const wf_cmd_list *list, char between, char **joined, weft_error *err);
+
 /* Says a trouble with a file after what was printed so far; a weft_warning_fn. */
 void wf_cmd_trouble(const char *text, void *user);
 

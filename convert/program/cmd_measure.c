@@ -1,10 +1,8 @@
 /* weft measure: flicker, cross-color, field order, legality and differences of video. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "convert/ask/measure.h"
-#include "convert/base/fail.h"
 #include "convert/program/cmd.h"
 #include "convert/program/measure_print.h"
 
@@ -30,25 +28,12 @@ static void say_trouble(const char *text, void *user) {
     wf_cmd_trouble(text, NULL);
 }
 
-/* Makes one of the limits of every --limit, with commas between them; free(). */
-static weft_status join_limits(const wf_cmd_list *limits, char **joined, weft_error *err) {
-    size_t size = 1;
-    *joined = NULL;
-    if (!limits->count) return WEFT_OK;
-    for (size_t i = 0; i < limits->count; i++) size += strlen(limits->value[i]) + 1;
-    char *end = *joined = malloc(size);
-    if (!end) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    for (size_t i = 0; i < limits->count; i++)
-        end += sprintf(end, "%s%s", i ? "," : "", limits->value[i]);
-    return WEFT_OK;
-}
-
 static weft_status measure(measure_state *s, weft_job *job, weft_error *err) {
     const wf_measure_tell tell = {s, print_figures, say_trouble};
     char *limits;
     weft_status status = wf_cmd_meter(&s->meter, s->progress, false, err);
     if (!status && s->max_memory) status = weft_job_set(job, "max-memory", s->max_memory, err);
-    if (!status) status = join_limits(&s->limits, &limits, err);
+    if (!status) status = wf_cmd_join(&s->limits, ',', &limits, err);
     if (status) return status;
     s->asked.limit = limits;
     weft_job_on_progress(job, wf_meter_update, &s->meter);

@@ -1,5 +1,6 @@
 /* What commands that ask about files have in common: a job of the operands, and its report. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
@@ -27,4 +28,18 @@ void wf_cmd_trouble(const char *text, void *user) {
     (void)user;
     fflush(stdout);
     wf_cmd_say("", text);
+}
+
+weft_status wf_cmd_join(const wf_cmd_list *list, char between, char **joined, weft_error *err) {
+    size_t size = 1;
+    *joined = NULL;
+    if (!list->count) return WEFT_OK;
+    for (size_t i = 0; i < list->count; i++) size += strlen(list->value[i]) + 1;
+    char *end = *joined = calloc(size, 1);
+    if (!end) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    for (size_t i = 0; i < list->count; i++) {
+        if (i) *end++ = between;
+        end = stpcpy(end, list->value[i]);
+    }
+    return WEFT_OK;
 }

@@ -9,7 +9,7 @@
 2
 
 Each command of the program is a function: `convert`, `render`, `trace`, `plan`, `measure`, `verify`,
-`info`, `filters`, `composite`, `plot`, `rasters`. Video comes and goes as files or as NumPy arrays, finished
+`info`, `filters`, `composite`, `page`, `plot`, `rasters`. Video comes and goes as files or as NumPy arrays, finished
 video as a `Clip`; `read` makes one of a file. `Job` is one run with its progress and its cancelling; `Fields`
 takes samples from a renderer and hands back finished fields; `apertures`, `aperture_response`, `raster`,
 `profiles` and `options` tell what there is. What goes wrong is a `weft.Error`, with the program's message.
@@ -27,7 +27,7 @@ from .clip import Clip, read
 from .errors import (Canceled, Error, Failed, NoMemory, UsageError, WeftError, WeftWarning)
 from .fields import Field, Fields
 from .job import Job, Progress, jobs_in
-from .questions import (composite, convert, filters, info, measure, plan, plot, profiles, render, trace,
+from .questions import (composite, convert, filters, info, measure, page, plan, plot, profiles, render, trace,
                         verify)
 from .report import Report, Reports
 from .tables import (Option, Raster, aperture_response, apertures, options, raster, rasters)
@@ -35,4 +35,4 @@ from .tables import (Option, Raster, aperture_response, apertures, options, rast
 __all__ = ["Canceled", "Clip", "Error", "Failed", "Field", "Fields", "Job", "NoMemory", "Option", "Progress",
            "Raster", "Report", "Reports", "UsageError", "WeftError", "WeftWarning", "aperture_response",
            "apertures", "composite", "convert", "filters", "info", "jobs_in", "library_path", "measure", "options",
-           "plan", "plot", "profiles", "raster", "rasters", "read", "render", "trace", "verify"]
+           "page", "plan", "plot", "profiles", "raster", "rasters", "read", "render", "trace", "verify"]

@@ -11,7 +11,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _files
-from ._library import Composite, Filters, Measure, ProfileStruct, Verify, lib
+from ._library import Composite, Filters, Measure, Page, ProfileStruct, Verify, lib
 from .clip import Clip, read
 from .errors import Failed, UsageError, WeftError, call, whole_text
 from .job import Job, Path, option_text
@@ -258,6 +258,27 @@ def filters(name: Optional[str] = None, **options: Any) -> Report:
     True
     """
     return _ask(lib.weft_job_filters, Filters, (), {"name": name, **options})
+
+
+def page(*clips: Source, output: Optional[Path] = None, labels: Any = None, **options: Any) -> None:
+    """`weft page`: one page of HTML that shows finished video field by field, or with preview a PNG of a
+    frame.
+
+    Clips are files or Clips, labels a list. Options are raster, frames, title, max_size, preview and
+    preview_frame, and of Job overwrite, progress, warning and max_memory.
+
+    >>> weft.render("scene.lua", output="shown.y4m", raster="36x24@30i,tff", frames="0-1", samples=1)["frames"]
+    2
+    >>> weft.page("shown.y4m", output="look.html", labels=["carousel"], raster="36x24@30i,tff")
+    """
+    if labels is not None:
+        options["labels"] = labels if isinstance(labels, str) else "\n".join(labels)
+    given = [clip.raster for clip in clips if isinstance(clip, Clip)]
+    if given:
+        options.setdefault("raster", given[0])
+    asked, rest = _split(Page, options)
+    with _Folder() as folder, Job(*[folder.place(clip) for clip in clips], output=output, **rest) as job:
+        job.work(lib.weft_job_page, ctypes.byref(asked))
 
 
 def plot(data: Union[Path, Mapping[str, Any]], output: Path) -> None:

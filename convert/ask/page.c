@@ -1,0 +1,114 @@
+/* A page that shows the files of a job: what is asked. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert/ask/asking.h"
+#include "convert/base/range.h"
+#include "convert/base/values.h"
+#include "convert/page/page.h"
+#include "convert/page/preview.h"
+
+typedef struct asking {
+    weft_job *job;
+    weft_page asked;
+    char *labels; /* what the clips' labels point into */
+    wf_raster raster;
+    wf_page_clip clip[WF_PAGE_MOST_CLIPS];
+    wf_page_request request;
+} asking;
+
+/* One run of whole numbers from 0 on. */
+static weft_status read_frames(const char *text, wf_page_request *r, weft_error *err) {
+    wf_frame_range range = {0};
+    if (!text) return WEFT_OK;
+    weft_status status = wf_range_parse(text, WF_RANGE_MOST, &range, err);
+    const wf_range_run *run = range.run;
+    if (!status && (range.runs != 1 || run->den != 1 || run->step > 1 || run->first < 0))
+        status = wf_fail(err, WEFT_USAGE,
+                         "--frames: '%.200s' will not do; a page shows one run of frames, "
+                         "numbered from 0, such as 0-59",
+                         text);
+    if (!status) r->first = run->first, r->count = run->count;
+    wf_range_free(&range);
+    return status;
+}
+
+static weft_status check_clips(const asking *a, weft_error *err) {
+    size_t clips = a->job->input_count;
+    weft_status status =
+        wf_ask_inputs(a->job, "nothing to show; give finished video, such as shot.y4m", err);
+    if (status) return status;
+    if (clips > WF_PAGE_MOST_CLIPS)
+        return wf_fail(err, WEFT_USAGE, "%zu clips are given, and a page shows at most %d",
+                       clips, WF_PAGE_MOST_CLIPS);
+    if (!a->job->output && !a->asked.preview)
+        return wf_fail(err, WEFT_USAGE, "where to is not said; give -o look.html");
+    if (a->asked.preview && clips > 1)
+        return wf_fail(err, WEFT_USAGE, "--preview is of one clip, and %zu are given", clips);
+    return WEFT_OK;
+}
+
+static weft_status read_labels(asking *a, weft_error *err) {
+    size_t labels = 0, clips = a->job->input_count;
+    for (size_t i = 0; i < clips; i++) a->clip[i] = (wf_page_clip){.path = a->job->inputs[i]};
+    if (!a->asked.labels) return WEFT_OK;
+    char *rest = a->labels = strdup(a->asked.labels);
+    if (!rest) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    for (char *label; (label = strsep(&rest, "\n")); labels++)
+        if (labels < clips) a->clip[labels].label = label;
+    if (labels <= clips) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE, "--label is given %zu times, and there are %zu clips",
+                   labels, clips);
+}
+
+static weft_status read_size(const char *text, size_t *to, weft_error *err) {
+    if (!text || wf_parse_size(text, to)) return WEFT_OK;
+    return wf_fail(err, WEFT_USAGE,
+                   "--max-size: '%.200s' will not do; it takes a size, such as 20M or 1G",
+                   text);
+}
+
+static weft_status read_asked(asking *a, weft_error *err) {
+    const weft_job *job = a->job;
+    a->request = (wf_page_request){.clip = a->clip,
+                                   .clips = job->input_count,
+                                   .title = a->asked.title,
+                                   .raster = a->asked.raster ? &a->raster : NULL,
+                                   .max_bytes = WF_PAGE_MOST_BYTES,
+                                   .max_memory_bytes = job->max_memory_bytes,
+                                   .overwrite = job->overwrite,
+                                   .cancelled = &job->cancelled,
+                                   .progress = job->progress,
+                                   .progress_user = job->progress_user,
+                                   .warning = job->warning,
+                                   .warning_user = job->warning_user};
+    weft_status status = check_clips(a, err);
+    if (!status) status = read_labels(a, err);
+    if (!status) status = wf_ask_raster(a->asked.raster, &a->raster, err);
+    if (!status) status = read_frames(a->asked.frames, &a->request, err);
+    return status ? status : read_size(a->asked.max_size, &a->request.max_bytes, err);
+}
+
+static weft_status preview(const asking *a, weft_error *err) {
+    wf_preview_request preview = {.video = a->job->inputs[0],
+                                  .raster = a->request.raster,
+                                  .frame = -1,
+                                  .max_memory_bytes = a->request.max_memory_bytes,
+                                  .overwrite = a->request.overwrite};
+    weft_status status = wf_preview_read_frame(a->asked.preview_frame, &preview.frame, err);
+    return status ? status : wf_preview_write(&preview, a->asked.preview, err);
+}
+
+weft_status weft_job_page(weft_job *job, const weft_page *asked, weft_error *err) {
+    asking *a = calloc(1, sizeof *a);
+    if (!a) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    a->job = job;
+    weft_status status = wf_asked(asked, "weft_page", &a->asked, sizeof a->asked, err);
+    if (!status) status = read_asked(a, err);
+    if (!status && a->asked.preview) status = preview(a, err);
+    if (!status && job->output) status = wf_page_make(&a->request, job->output, err);
+    free(a->labels);
+    free(a);
+    return status;
+}
