@@ -22,7 +22,11 @@ extern "C" {
 #define WEFT_API
 #endif
 
-#define WEFT_VERSION "0.1.0"
+/* The header's version, as text and, for #if, as numbers. */
+#define WEFT_VERSION "0.2.0"
+#define WEFT_VERSION_MAJOR 0
+#define WEFT_VERSION_MINOR 2
+#define WEFT_VERSION_PATCH 0
 
 /* The version of the library that is running; WEFT_VERSION is the header's. Static storage. */
 WEFT_API const char *weft_version(void);

@@ -133,9 +133,8 @@ static void put_preface(const writer *w) {
 
 static void put_identification(const writer *w) {
     static const wf_uid product = {"weft MXF writer"};
-    unsigned v[3] = {0};
-    sscanf(WEFT_VERSION, "%u.%u.%u", &v[0], &v[1], &v[2]);
-    const uint8_t version[10] = {0, (uint8_t)v[0], 0, (uint8_t)v[1], 0, (uint8_t)v[2]};
+    const uint8_t version[10] = {0, WEFT_VERSION_MAJOR, 0, WEFT_VERSION_MINOR,
+                                 0, WEFT_VERSION_PATCH};
     size_t begun = begin_set(w, 0x30, IDENTIFICATION);
     item_reference(w, 0x3c09, GENERATION);
     wf_item_text(w->b, 0x3c01, "weft");

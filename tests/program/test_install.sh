@@ -16,7 +16,9 @@ int main(void)
     weft_error error = {""};
     weft_raster raster;
     weft_job *job = weft_job_new();
-    bool ok = job && strcmp(weft_version(), WEFT_VERSION) == 0;
+    char numbers[32];
+    snprintf(numbers, sizeof numbers, "%d.%d.%d", WEFT_VERSION_MAJOR, WEFT_VERSION_MINOR, WEFT_VERSION_PATCH);
+    bool ok = job && strcmp(weft_version(), WEFT_VERSION) == 0 && strcmp(numbers, WEFT_VERSION) == 0;
     ok = ok && weft_raster_parse("525i", &raster, &error) == WEFT_OK && raster.lines == 486;
     ok = ok && weft_raster_parse("526i", &raster, &error) == WEFT_USAGE && error.text[0];
     weft_job_free(job);
@@ -30,7 +32,7 @@ cp user.c user
 cat >user/CMakeLists.txt <<'END'
 cmake_minimum_required(VERSION 3.16)
 project(user C)
-find_package(weft 0.1 REQUIRED)
+find_package(weft 0.2 REQUIRED)
 add_executable(user user.c)
 target_link_libraries(user PRIVATE weft::weft)
 END

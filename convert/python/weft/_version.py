@@ -1,2 +1,2 @@
 """The version of libweft that this package is for: that of weft.h."""
-VERSION = "0.1.0"
+VERSION = "0.2.0"
