@@ -29,13 +29,21 @@ static double half_window(const wf_gather_desc *d) {
     return tau > 0 ? tau / 2 : INSTANT;
 }
 
+/* Farther fields than a run has: what is beyond them is as far as this, in numbers that can be
+ * added. */
+#define FAR_FIELDS 0x1p40
+
+static int64_t nearer(double fields) {
+    return (int64_t)fmin(fmax(fields, -FAR_FIELDS), FAR_FIELDS);
+}
+
 void wf_gather_fields(const wf_gather_desc *d, int64_t field, double t0, double t1,
                       int64_t *first, int64_t *last) {
     double middle = middle_of(d), half = half_window(d);
     double low = ceil(t0 - middle - half - skew_of(d)), high = floor(t1 - middle + half);
-    int64_t base = wf_raster_instant(d->raster, field);
-    *first = wf_raster_first_field(d->raster, base + (int64_t)low);
-    *last = wf_raster_first_field(d->raster, base + (int64_t)high + 1) - 1;
+    int64_t base = wf_raster_instant(d->raster, nearer((double)field));
+    *first = wf_raster_first_field(d->raster, base + nearer(low));
+    *last = wf_raster_first_field(d->raster, base + nearer(high) + 1) - 1;
     if (*first < 0) *first = 0;
 }
 

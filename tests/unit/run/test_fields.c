@@ -170,6 +170,44 @@ static void refusals(void **state) {
     weft_job_free(job);
 }
 
+/* A sample at a time beyond all fields, in whatever field it is said to be, takes none of the
+ * others with it. */
+static void far_times(void **state) {
+    static const int64_t fields_of[] = {INT64_MIN, INT64_MAX};
+    static float t[WIDTH * LINES * 3], x[WIDTH * LINES * 3], y[WIDTH * LINES * 3],
+        gray[WIDTH * LINES * 3];
+    static taken taken_fields;
+    weft_error err = {""};
+    weft_fields *fields;
+    weft_job *job = make_job("box");
+    (void)state;
+    for (int i = 0; i < 3 * WIDTH * LINES; i++) {
+        x[i] = (float)(i / 3 % WIDTH) + 0.5f;
+        y[i] = (float)(i / 3 / WIDTH) + 0.5f;
+        t[i] = (float)(i % 3 - 1) * 1e30f;
+        gray[i] = 0.25f;
+    }
+    taken_fields.count = 0;
+    assert_int_equal(weft_fields_new(job, 1, take, &taken_fields, &fields, &err), WEFT_OK);
+    weft_samples block = {.count = sizeof x / sizeof *x,
+                          .x = x,
+                          .y = y,
+                          .t = t,
+                          .red = gray,
+                          .green = gray,
+                          .blue = gray};
+    for (block.field = 0; block.field < 2; block.field++)
+        if (weft_fields_push(fields, &block, &err)) fail_msg("%s", err.text);
+    for (int i = 0; i < 2; i++) {
+        block.field = fields_of[i];
+        if (weft_fields_push(fields, &block, &err)) fail_msg("%s", err.text);
+    }
+    if (weft_fields_finish(fields, &err)) fail_msg("%s", err.text);
+    assert_int_equal(taken_fields.count, 2);
+    weft_fields_free(fields);
+    weft_job_free(job);
+}
+
 /* ---- Alpha ---- */
 
 typedef struct keyed {
@@ -237,6 +275,6 @@ static void alpha_goes_along(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_goes_along),
                                        cmocka_unit_test(sums), cmocka_unit_test(tiles),
-                                       cmocka_unit_test(refusals)};
+                                       cmocka_unit_test(refusals), cmocka_unit_test(far_times)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
