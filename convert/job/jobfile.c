@@ -341,6 +341,12 @@ static weft_status load_members(loading *l, json_t *root, weft_error *err) {
 weft_status wf_jobfile_parse(const wf_jobfile_text *text, json_t **root, weft_error *err) {
     json_error_t why;
     *root = json_loadb(text->bytes, text->size, JSON_REJECT_DUPLICATES, &why);
+    if (*root) return WEFT_OK;
+    /* Jansson may take an allocation that fails for a fault of the text: it reads again. */
+    void *room = malloc(text->size + 4096);
+    if (!room) return wf_fail(err, WEFT_NO_MEMORY, "%.300s: out of memory", text->path);
+    free(room);
+    *root = json_loadb(text->bytes, text->size, JSON_REJECT_DUPLICATES, &why);
     return *root ? WEFT_OK : refuse_json(text, &why, err);
 }
 

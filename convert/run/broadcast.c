@@ -206,11 +206,10 @@ static weft_status show_all(run *r, weft_error *err) {
 }
 
 static void tell(const run *r, wf_report *report) {
-    wf_worker times = wf_crew_times(&r->crew);
+    if (!r->frames) return; /* it did not get so far that there is anything to tell */
     report->frames = r->crew.done;
     report->fields = r->crew.done * wf_raster_fields_per_frame(&r->job->raster);
-    report->color_s = times.color_s;
-    if (!r->frames) return;
+    report->color_s = wf_crew_times(&r->crew).color_s;
     report->legal = wf_setup_legal(r->job, &r->setup);
     wf_frames_tell(r->frames, report);
 }

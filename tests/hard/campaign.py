@@ -41,6 +41,21 @@ def python_job():
             "except MemoryError as e: sys.exit(f'weft: out of memory: {e}')", "run/o.y4m"]
 
 
+def python_questions():
+    """A host that asks what the commands tell, and goes on after a failure."""
+    return [sys.executable, "-P", "-c", """
+import sys, weft
+wrong = 0
+for ask in (lambda: weft.measure('video.y4m'), lambda: weft.verify('video.y4m', raster='%s')[0]['right'] or 1 / 0,
+            lambda: weft.info('video.y4m'), lambda: weft.filters('box'), lambda: weft.read('video.y4m', frames=1)):
+    try:
+        ask()
+    except (weft.Error, MemoryError, ZeroDivisionError) as e:
+        print('weft: memory:' if isinstance(e, (MemoryError, ZeroDivisionError)) else 'weft:', e, file=sys.stderr)
+        wrong = 1
+sys.exit(wrong)""" % RASTER]
+
+
 def jobs():
     """Name, command, and how it is resumed where it can be."""
     found = {
@@ -56,6 +71,7 @@ def jobs():
         "png-y4m": [WEFT, "convert", "p.####.png", "--subframe-rate", "60", *SMALL, "-o", "run/o.y4m"],
         "y4m-y4m": [WEFT, "convert", "pictures.y4m", "--raster", "48x36@25i,tff", "-q", "-o", "run/o.y4m"],
         "job-file": [WEFT, "convert", "--job", "job.json"],
+        "job-list": [WEFT, "convert", "--job", "list.json", "--report", "run/report.json"],
         "render": [WEFT, "render", str(SCENE), *SMALL, "--samples", "2", "--frames", "0-1", "-o", "run/o.y4m"],
         "render-error": [WEFT, "render", str(SCENE), *SMALL, "--error", ".1", "--frames", "0", "-o", "run/o.y4m"],
         "trace-deep": [WEFT, "trace", str(SCENE), *SMALL, "--samples", "2", "--frames", "0-1", "-o", "run/o.####.exr"],
@@ -71,6 +87,7 @@ def jobs():
         "info": [WEFT, "info", "--json", "in.####.exr", "video.y4m"],
         "push": [str(BUILD / "tests/hard-push"), "run/o.y4m"],
         "python": python_job(),
+        "python-questions": python_questions(),
     }
     if list(BUILD.glob("**/weft-libav.so")):
         found |= {"exr-mov": convert("--codec", "prores", "--audio", "silent:2", "-o", "run/o.mov"),
@@ -101,6 +118,8 @@ def make_inputs(folder):
                        "silent:2", "-o", name], folder)
     (folder / "job.json").write_text('{"inputs": ["in.####.exr"], "output": "run/o.y4m", "fit": "stretch", "raster": "'
                                      + RASTER + '"}')
+    (folder / "list.json").write_text('{"inputs": "in.####.exr", "fit": "stretch", "raster": "' + RASTER
+                                      + '", "jobs": [{"output": "run/o.y4m"}, {"output": "run/p.#.png"}]}')
 
 
 class Place:
@@ -150,7 +169,7 @@ def judge(kind, result, whole, place):
             return None  # info and verify tell of what they could not read, and go on
         if made != good_made:
             return f"exit {code}, but {sorted(made)} are not what they should be"
-        return None if out == good_out or kind == "python" else f"exit {code}, but it prints something else"
+        return None if out == good_out or kind.startswith("python") else f"exit {code}, but it prints something else"
     if kind == "kill" and code == -9:
         wrong = [n for n, digest in made.items() if not n.endswith(".tmp") and digest != good_made.get(n)]
         return f"half-written after SIGKILL: {wrong}" if wrong else None
