@@ -49,8 +49,9 @@ static void take_rate(const wf_image_info *info, wf_sequence *sequence, wf_taken
     wf_shown shown;
     weft_error why;
     char text[48] = "irregular";
+    bool told = wf_ratio_given(info->rate) || wf_ratio_given(info->time_s);
     if (wf_shown_by_files("", info, sequence, &shown, &why)) {
-        wf_fact_text(facts, "trouble", why.text);
+        if (told) wf_fact_text(facts, "trouble", why.text);
         return;
     }
     if (!shown.times_s) wf_rate_text(shown.rate, text);
