@@ -236,8 +236,42 @@ static void hostile_files_are_refused(void **state) {
     free(bytes);
 }
 
+/* Jobs of a list, in C: how many there are, each with what all share, and what is refused. */
+static void lists_have_numbers(void **state) {
+    (void)state;
+    static const char list[] =
+        "{\"raster\": \"625i\", \"bits\": 8,\n \"jobs\": [\n  {\"output\": \"a.y4m\"},\n"
+        "  {\"output\": \"]{\\\"b\", \"raster\": \"525i\"}, {\"bitz\": 8}]}";
+    char path[512];
+    weft_error err = {""};
+    size_t count;
+    for (size_t number = 0; number < 5; number++) {
+        weft_job *job = weft_job_new();
+        write_job(path, "list.json", list, strlen(list));
+        assert_int_equal(weft_jobs_in(path, &count, &err), WEFT_OK);
+        assert_int_equal(count, 3);
+        weft_status status = weft_job_load_nth(job, path, number, &err);
+        assert_int_equal(status, number == 1 || number == 2 ? WEFT_OK : WEFT_USAGE);
+        if (number == 1) assert_string_equal(job->raster.name, "625i");
+        if (number == 2) assert_string_equal(job->raster.name, "525i");
+        if (number == 2) assert_non_null(strstr(job->output, "]{\"b"));
+        if (number == 1) assert_int_equal(job->bits, 8);
+        if (number == 0) assert_non_null(strstr(err.text, "list of jobs"));
+        if (number == 3) assert_non_null(strstr(err.text, "list.json:4:43: job 3: \"bitz\""));
+        if (number == 4) assert_non_null(strstr(err.text, "no job 4"));
+        weft_job_free(job);
+    }
+    write_job(path, "one.json", "{}", 2);
+    assert_int_equal(weft_jobs_in(path, &count, &err), WEFT_OK);
+    assert_int_equal(count, 0);
+    write_job(path, "none.json", "[]", 2);
+    assert_int_equal(weft_jobs_in(path, &count, &err), WEFT_USAGE);
+    assert_int_equal(weft_jobs_in("", &count, &err), WEFT_USAGE);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_have_numbers),
         cmocka_unit_test(says_what_options_say),
         cmocka_unit_test(arrays_are_lists),
         cmocka_unit_test(every_option_is_a_key),
