@@ -1,32 +1,25 @@
 /* Writes sample buffers: deep scanline EXR, a line a chunk, deflated here by any thread. */
 #include "convert/write/deep_write.h"
 
-#include <errno.h>
 #include <libdeflate.h>
-#include <openexr.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "convert/base/outplace.h"
+#include "convert/base/outfile.h"
+#include "convert/write/exr_header.h"
 #include "convert/write/exr_zip.h"
 
-/* OpenEXRCore puts the file together. It does not report writes that fail, so they are noted
- * here. */
 struct wf_deep_writer {
-    wf_outplace place;
-    int fd;
-    int code; /* errno of the first write that failed; 0: none did */
-    exr_context_t exr;
+    wf_outfile *file;
+    int lines;
+    int64_t table, end; /* bytes before the table of chunks, and of all that was written */
+    uint64_t chunk[];   /* [lines]: where each begins */
 };
 
-static const struct {
-    const char *name;
-    wf_deep_channel channel;
-} written[] = {{"A", WF_DEEP_A},       {"B", WF_DEEP_B},        {"G", WF_DEEP_G},
-               {"R", WF_DEEP_R},       {"sample.t", WF_DEEP_T}, {"sample.x", WF_DEEP_X},
-               {"sample.y", WF_DEEP_Y}};
+/* In the order of the alphabet. */
+static const char *const names[] = {"A", "B", "G", "R", "sample.t", "sample.x", "sample.y"};
+static const wf_deep_channel written[] = {WF_DEEP_A, WF_DEEP_B, WF_DEEP_G, WF_DEEP_R,
+                                          WF_DEEP_T, WF_DEEP_X, WF_DEEP_Y};
 
 #define WRITTEN (sizeof written / sizeof *written)
 enum { WITH_ALPHA = 0, WITHOUT_ALPHA = 1 }; /* of `written`, the first that there is */
@@ -56,7 +49,7 @@ weft_status wf_deep_pack(int width, const wf_deep_line *line, wf_deep_packed *ou
      * next. */
     uint8_t *to = raw;
     for (size_t c = first; good && c < WRITTEN; c++, to += each)
-        memcpy(to, line->channel[written[c].channel], each);
+        memcpy(to, line->channel[written[c]], each);
     good = good && deflate(how, raw, bytes, &out->data, &out->data_bytes) &&
            deflate(how, (const uint8_t *)line->upto, (size_t)width * sizeof *line->upto,
                    &out->table, &out->table_bytes);
@@ -73,61 +66,49 @@ void wf_deep_packed_free(wf_deep_packed *packed) {
 
 /* ---- Files ---- */
 
-static int64_t put_bytes(exr_const_context_t exr, void *user, const void *data, uint64_t bytes,
-                         uint64_t at, exr_stream_error_func_ptr_t error) {
-    wf_deep_writer *w = user;
-    (void)exr, (void)error;
-    for (uint64_t done = 0; done < bytes && !w->code;) {
-        ssize_t n = pwrite(w->fd, (const char *)data + done, bytes - done, (off_t)(at + done));
-        if (n < 0 && errno != EINTR) w->code = errno;
-        done += n > 0 ? (uint64_t)n : 0;
-    }
-    return w->code ? -1 : (int64_t)bytes;
-}
-
-/* Where neither the system nor memory is at fault, OpenEXRCore is. */
-static weft_status fail(const wf_deep_writer *w, const char *what, weft_error *err) {
-    if (w->code)
-        return wf_fail(err, WEFT_FAILED, "%s: %s cannot be written: %s", w->place.path, what,
-                       strerror(w->code));
-    return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory to write %s", w->place.path, what);
-}
-
-static bool set_text(exr_context_t exr, const char *name, const char *text) {
-    return !*text || !exr_attr_set_string(exr, 0, name, text);
-}
-
-static bool describe(wf_deep_writer *w, const wf_raster *r, const char *color_space,
+static void describe(wf_exr_header *h, const wf_raster *r, const char *color_space,
                      bool alpha) {
-    exr_attr_box2i_t window = {.min = {.x = 0, .y = 0},
-                               .max = {.x = r->width_px - 1, .y = r->lines - 1}};
-    exr_attr_v2f_t center = {.x = 0, .y = 0};
-    exr_attr_rational_t rate = {(int32_t)r->frame_rate.num, (uint32_t)r->frame_rate.den};
-    bool good = !exr_add_part(w->exr, "samples", EXR_STORAGE_DEEP_SCANLINE, NULL) &&
-                !exr_initialize_required_attr(
-                    w->exr, 0, &window, &window, (float)wf_ratio_value(r->pixel_aspect),
-                    &center, 1, EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIPS);
-    for (size_t c = alpha ? WITH_ALPHA : WITHOUT_ALPHA; good && c < WRITTEN; c++)
-        good = !exr_add_channel(w->exr, 0, written[c].name, EXR_PIXEL_FLOAT,
-                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-    return good && !exr_attr_set_rational(w->exr, 0, "framesPerSecond", &rate) &&
-           set_text(w->exr, "weft:raster", r->name) &&
-           set_text(w->exr, "weft:colorSpace", color_space) && !exr_write_header(w->exr);
+    size_t first = alpha ? WITH_ALPHA : WITHOUT_ALPHA;
+    wf_exr_header_begin(h, WF_EXR_DEEP);
+    wf_exr_put_text(h, "type", "deepscanline");
+    wf_exr_put_text(h, "name", "samples");
+    wf_exr_put_int(h, "version", 1);
+    wf_exr_put_required(h, WF_EXR_ZIPS, r->width_px, r->lines, r->pixel_aspect);
+    wf_exr_put_channels(h, names + first, WRITTEN - first);
+    wf_exr_put_ratio(h, "framesPerSecond", r->frame_rate);
+    wf_exr_put_text(h, "weft:raster", r->name);
+    wf_exr_put_text(h, "weft:colorSpace", color_space);
+    wf_exr_put_int(h, "chunkCount", r->lines); /* a line a chunk */
+    wf_exr_header_end(h);
+}
+
+/* Goes on at the end of the file. */
+static weft_status put(wf_deep_writer *w, const void *data, size_t bytes, weft_error *err) {
+    w->end += (int64_t)bytes;
+    return wf_outfile_write(w->file, data, bytes, err);
+}
+
+/* The header, and room for the table, which is known at the end. */
+static weft_status begin(wf_deep_writer *w, const char *path, const wf_exr_header *h,
+                         weft_error *err) {
+    if (h->full)
+        return wf_fail(err, WEFT_FAILED, "%s: the names of its colors or raster are too long",
+                       path);
+    weft_status status = put(w, h->bytes, h->used, err);
+    w->table = w->end;
+    return status ? status : put(w, w->chunk, (size_t)w->lines * sizeof *w->chunk, err);
 }
 
 weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
                                const char *color_space, bool alpha, bool overwrite,
                                wf_deep_writer **out, weft_error *err) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    wf_deep_writer *w = calloc(1, sizeof *w);
+    wf_exr_header h;
+    wf_deep_writer *w = calloc(1, sizeof *w + (size_t)raster->lines * sizeof *w->chunk);
     if (!w) return wf_fail(err, WEFT_NO_MEMORY, "%s: no memory", path);
-    w->fd = -1;
-    how.user_data = w;
-    how.write_fn = put_bytes;
-    weft_status status = wf_outplace_open(path, overwrite, &w->place, &w->fd, err);
-    if (!status && (exr_start_write(&w->exr, path, EXR_WRITE_FILE_DIRECTLY, &how) ||
-                    !describe(w, raster, color_space, alpha)))
-        status = fail(w, "its header", err);
+    w->lines = raster->lines;
+    describe(&h, raster, color_space, alpha);
+    weft_status status = wf_outfile_open(path, overwrite, &w->file, err);
+    if (!status) status = begin(w, path, &h, err);
     if (status) {
         wf_deep_abandon(w);
         return status;
@@ -138,33 +119,30 @@ weft_status wf_deep_writer_new(const char *path, const wf_raster *raster,
 
 weft_status wf_deep_write(wf_deep_writer *w, int y, const wf_deep_packed *line,
                           weft_error *err) {
-    exr_result_t result =
-        exr_write_deep_scanline_chunk(w->exr, 0, y, line->data, line->data_bytes,
-                                      line->unpacked_bytes, line->table, line->table_bytes);
-    char what[32];
-    if (result == EXR_ERR_SUCCESS && !w->code) return WEFT_OK;
-    snprintf(what, sizeof what, "line %d", y);
-    return fail(w, what, err);
+    const uint64_t bytes[3] = {line->table_bytes, line->data_bytes, line->unpacked_bytes};
+    const int32_t number = y;
+    w->chunk[y] = (uint64_t)w->end;
+    weft_status status = put(w, &number, sizeof number, err);
+    if (!status) status = put(w, bytes, sizeof bytes, err);
+    if (!status) status = put(w, line->table, line->table_bytes, err);
+    return status ? status : put(w, line->data, line->data_bytes, err);
 }
 
 weft_status wf_deep_commit(wf_deep_writer *w, weft_error *err) {
-    exr_result_t result = exr_finish(&w->exr);
-    weft_status status = WEFT_OK;
-    if (!w->code && fsync(w->fd)) w->code = errno;
-    if (result != EXR_ERR_SUCCESS || w->code)
-        status = fail(w, "its end", err);
-    else {
-        status = wf_outplace_publish(&w->place, w->fd, err);
-        w->fd = -1;
+    size_t bytes = (size_t)w->lines * sizeof *w->chunk;
+    weft_status status = wf_outfile_seek(w->file, w->table, err);
+    if (!status) status = wf_outfile_write(w->file, w->chunk, bytes, err);
+    if (status) {
+        wf_deep_abandon(w);
+        return status;
     }
-    wf_deep_abandon(w);
+    status = wf_outfile_commit(w->file, err);
+    free(w);
     return status;
 }
 
 void wf_deep_abandon(wf_deep_writer *w) {
     if (!w) return;
-    if (w->exr) exr_finish(&w->exr);
-    if (w->fd >= 0) close(w->fd);
-    wf_outplace_forget(&w->place);
+    wf_outfile_abandon(w->file);
     free(w);
 }

@@ -4,41 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/write/exr_header.h"
 #include "convert/write/exr_zip.h"
 
-enum { CHUNK_LINES = 16, CHUNK_HEAD = 8, DEFLATE_LEVEL = 4, HEADER_BYTES = 8192 };
+enum { CHUNK_LINES = 16, CHUNK_HEAD = 8, DEFLATE_LEVEL = 4 };
 
 /* ---- The header ---- */
-
-/* What a file begins with. Numbers are little-endian, as this machine has them. */
-typedef struct header {
-    uint8_t bytes[HEADER_BYTES];
-    size_t used;
-    bool full; /* something did not fit */
-} header;
-
-static void put(header *h, const void *data, size_t bytes) {
-    h->full |= bytes > HEADER_BYTES - h->used;
-    if (h->full) return;
-    memcpy(h->bytes + h->used, data, bytes);
-    h->used += bytes;
-}
-
-static void put_name(header *h, const char *name) {
-    put(h, name, strlen(name) + 1);
-}
-
-static void put_int(header *h, int32_t value) {
-    put(h, &value, sizeof value);
-}
-
-static void put_attribute(header *h, const char *name, const char *type, const void *value,
-                          size_t bytes) {
-    put_name(h, name);
-    put_name(h, type);
-    put_int(h, (int32_t)bytes);
-    put(h, value, bytes);
-}
 
 /* CIE x and y of red, green, blue and white, which EXR takes for Rec. 709's where nothing is
  * said. */
@@ -57,7 +28,7 @@ static const struct {
                  {"ACEScg", {.713f, .293f, .165f, .83f, .128f, .044f, .32168f, .33767f}},
                  {"ACES2065-1", {.7347f, .2653f, 0, 1, .0001f, -.077f, .32168f, .33767f}}};
 
-static void put_primaries(header *h, const wf_picture_out *p) {
+static void put_primaries(wf_exr_header *h, const wf_picture_out *p) {
     float own[8];
     const float *xy = NULL;
     for (int i = 0; i < 8; i++) own[i] = (float)p->chromaticities[i];
@@ -66,88 +37,42 @@ static void put_primaries(header *h, const wf_picture_out *p) {
         const char *begins = primaries[i].space;
         if (!strncmp(p->color_space, begins, strlen(begins))) xy = primaries[i].xy;
     }
-    if (xy) put_attribute(h, "chromaticities", "chromaticities", xy, sizeof own);
+    if (xy) wf_exr_put(h, "chromaticities", "chromaticities", xy, sizeof own);
 }
 
-static void put_text(header *h, const char *name, const char *text) {
-    if (*text) put_attribute(h, name, "string", text, strlen(text));
-}
-
-/* Ratios that EXR's rationals cannot hold are left out. */
-static void put_ratio(header *h, const char *name, wf_rational r) {
-    const int32_t ratio[2] = {(int32_t)r.num, (int32_t)r.den};
-    if (r.den > 0 && r.num <= INT32_MAX && r.den <= INT32_MAX)
-        put_attribute(h, name, "rational", ratio, sizeof ratio);
-}
-
-static void put_time(header *h, const wf_picture_out *p) {
+static void put_time(wf_exr_header *h, const wf_picture_out *p) {
     uint32_t words[2] = {0, 0}; /* and no user bits */
-    if (wf_picture_time(p, words))
-        put_attribute(h, "timeCode", "timecode", words, sizeof words);
+    if (wf_picture_time(p, words)) wf_exr_put(h, "timeCode", "timecode", words, sizeof words);
 }
 
-/* In the order of the alphabet, which lines have them in too. */
-static const struct {
-    const char *name;
-    int plane;
-} channels[] = {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}};
-enum { CHANNELS = sizeof channels / sizeof *channels };
-
-static void put_channels(header *h, const wf_picture_out *p) {
-    enum { FLOAT = 2, ENTRY = 2 + 16 }; /* a name of one letter, and what follows it */
-    put_name(h, "channels");
-    put_name(h, "chlist");
-    put_int(h, p->channels * ENTRY + 1);
-    for (int c = CHANNELS - p->channels; c < CHANNELS; c++) {
-        const int32_t about[4] = {FLOAT, 0, 1, 1}; /* not of pLinear; sampling */
-        put_name(h, channels[c].name);
-        put(h, about, sizeof about);
-    }
-    put(h, "", 1);
-}
-
-/* What has to be there. */
-static void put_required(header *h, const wf_picture_out *p) {
-    const int32_t window[4] = {0, 0, p->width_px - 1, p->lines - 1};
-    const uint8_t zip = 3, increasing_y = 0;
-    const float aspect = (float)wf_ratio_value(p->pixel_aspect), one = 1, center[2] = {0, 0};
-    put_channels(h, p);
-    put_attribute(h, "compression", "compression", &zip, 1);
-    put_attribute(h, "dataWindow", "box2i", window, sizeof window);
-    put_attribute(h, "displayWindow", "box2i", window, sizeof window);
-    put_attribute(h, "lineOrder", "lineOrder", &increasing_y, 1);
-    put_attribute(h, "pixelAspectRatio", "float", &aspect, sizeof aspect);
-    put_attribute(h, "screenWindowCenter", "v2f", center, sizeof center);
-    put_attribute(h, "screenWindowWidth", "float", &one, sizeof one);
-}
+/* In the order of the alphabet; pictures have A or not. */
+static const char *const names[] = {"A", "B", "G", "R"};
+static const int planes[] = {3, 2, 1, 0};
+enum { CHANNELS = sizeof planes / sizeof *planes };
 
 /* The date is empty: equal pictures are to be equal files. */
-static void put_words(header *h, const wf_picture_out *p) {
+static void put_words(wf_exr_header *h, const wf_picture_out *p) {
     char words[WF_PICTURE_WORDS_SIZE];
-    const int32_t upright = 1, field = p->field;
-    put_attribute(h, "Orientation", "int", &upright, sizeof upright);
-    put_text(h, "Software", WF_PICTURE_SOFTWARE);
-    put_attribute(h, "capDate", "string", "", 0);
-    put_text(h, "comments", wf_picture_words(p, words));
-    put_ratio(h, "framesPerSecond", p->frame_rate);
+    wf_exr_put_int(h, "Orientation", 1);
+    wf_exr_put_text(h, "Software", WF_PICTURE_SOFTWARE);
+    wf_exr_put(h, "capDate", "string", "", 0);
+    wf_exr_put_text(h, "comments", wf_picture_words(p, words));
+    wf_exr_put_ratio(h, "framesPerSecond", p->frame_rate);
     put_primaries(h, p);
     put_time(h, p);
-    put_text(h, "weft:colorSpace", p->color_space);
-    if (p->field) put_attribute(h, "weft:field", "int", &field, sizeof field);
-    put_text(h, "weft:raster", p->raster);
-    put_ratio(h, "weft:subframeRate", p->subframe_rate);
-    put_ratio(h, "weft:time", p->time_s);
+    wf_exr_put_text(h, "weft:colorSpace", p->color_space);
+    if (p->field) wf_exr_put_int(h, "weft:field", p->field);
+    wf_exr_put_text(h, "weft:raster", p->raster);
+    wf_exr_put_ratio(h, "weft:subframeRate", p->subframe_rate);
+    wf_exr_put_ratio(h, "weft:time", p->time_s);
 }
 
-static void put_header(header *h, const wf_picture_out *p) {
-    const int32_t magic = 20000630, version = 2;
-    h->used = 0;
-    h->full = false;
-    put_int(h, magic);
-    put_int(h, version);
-    put_required(h, p);
+static void put_header(wf_exr_header *h, const wf_picture_out *p) {
+    wf_exr_header_begin(h, 0);
+    wf_exr_put_channels(h, names + CHANNELS - p->channels, (size_t)p->channels);
+    wf_exr_put_required(h, WF_EXR_ZIP, p->width_px, p->lines, p->pixel_aspect);
     put_words(h, p);
-    put(h, "", 1);
+    wf_exr_header_end(h);
 }
 
 /* ---- Lines ---- */
@@ -187,7 +112,7 @@ static size_t gather(const wf_picture_out *p, int y0, int y1, uint8_t *to) {
     uint8_t *at = to;
     for (int y = y0; y < y1; y++)
         for (int c = CHANNELS - p->channels; c < CHANNELS; c++, at += bytes) {
-            int plane = channels[c].plane;
+            int plane = planes[c];
             const float *from = p->plane[plane];
             memcpy(at, from + (size_t)y * p->line_stride[plane], bytes);
         }
@@ -210,8 +135,8 @@ static void pack(const wf_picture_out *p, size_t header_bytes, packer *k) {
 
 /* ---- Pictures ---- */
 
-static weft_status put_file(const header *h, const packer *k, wf_bytes_fn *write, void *user,
-                            weft_error *err) {
+static weft_status put_file(const wf_exr_header *h, const packer *k, wf_bytes_fn *write,
+                            void *user, weft_error *err) {
     weft_status status = write(user, h->bytes, h->used, err);
     if (!status) status = write(user, k->table, k->chunks * sizeof *k->table, err);
     return status ? status : write(user, k->all, k->bytes, err);
@@ -219,7 +144,7 @@ static weft_status put_file(const header *h, const packer *k, wf_bytes_fn *write
 
 weft_status wf_exr_encode(const wf_picture_out *picture, wf_bytes_fn *write, void *user,
                           weft_error *err) {
-    header h;
+    wf_exr_header h;
     packer k;
     weft_status status = WEFT_OK;
     put_header(&h, picture);

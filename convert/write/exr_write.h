@@ -6,8 +6,7 @@
 /* OpenEXR (its file layout, version 2): float samples (bits 32) in scan lines, ZIP, both
  * windows the picture; alpha is premultiplied. Attributes are those of OpenEXR's
  * ImfStandardAttributes.h, and weft's own: weft:raster, weft:colorSpace, weft:field,
- * weft:subframeRate, weft:time. Nothing of OpenEXR's library is called, of which 3.1.5 crashes
- * where memory is out. */
+ * weft:subframeRate, weft:time. */
 wf_encode_picture_fn wf_exr_encode;
 
 #endif
