@@ -43,6 +43,7 @@ static bool same(const wf_chromaticities *a, const wf_chromaticities *b) {
 static bool make(const wf_curve *decodes, const wf_chromaticities *from,
                  const wf_chromaticities *to, const wf_curve *encodes, wf_transform *out) {
     builtin *t = malloc(sizeof *t);
+    *out = (wf_transform){0};
     if (!t) return false;
     *t = (builtin){.ops = wf_line_ops_best(),
                    .decodes = decodes,
@@ -69,13 +70,9 @@ bool wf_builtin_transform(const char *from, const char *to, wf_transform *out, c
            no_memory(why, why_size);
 }
 
-bool wf_builtin_from_light(const wf_chromaticities *from, const char *to, wf_transform *out,
-                           char *why, size_t why_size) {
-    *out = (wf_transform){0};
-    const wf_space *output = wf_space_find(to, why, why_size);
-    if (!output) return false;
-    return make(NULL, from, &wf_chromaticities_of[output->primaries], output->curve, out) ||
-           no_memory(why, why_size);
+bool wf_builtin_from_light(const wf_chromaticities *from, const wf_space *to,
+                           wf_transform *out) {
+    return make(NULL, from, &wf_chromaticities_of[to->primaries], to->curve, out);
 }
 
 bool wf_builtin_mix(const wf_chromaticities *from, const wf_chromaticities *to,

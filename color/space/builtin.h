@@ -14,9 +14,10 @@
 bool wf_builtin_transform(const char *from, const char *to, wf_transform *out, char *why,
                           size_t why_size);
 
-/* The same from light of any primaries, which are usable (wf_chromaticities_usable). */
-bool wf_builtin_from_light(const wf_chromaticities *from, const char *to, wf_transform *out,
-                           char *why, size_t why_size);
+/* The same from light of any primaries, which are usable (wf_chromaticities_usable). False: no
+ * memory. */
+bool wf_builtin_from_light(const wf_chromaticities *from, const wf_space *to,
+                           wf_transform *out);
 
 /* Light of some primaries to light of others. False: no memory. */
 bool wf_builtin_mix(const wf_chromaticities *from, const wf_chromaticities *to,

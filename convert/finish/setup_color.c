@@ -50,6 +50,11 @@ static weft_status no_memory(weft_error *err) {
     return wf_fail(err, WEFT_NO_MEMORY, "no memory for the color transform");
 }
 
+/* What OpenColorIO refuses, is as it was asked for; without a reason memory was out. */
+static weft_status refuse(const char *why, weft_error *err) {
+    return *why ? wf_fail(err, WEFT_USAGE, "%s", why) : no_memory(err);
+}
+
 /* A space of weft's own. */
 static weft_status find_own(const char *from, wf_setup *s, light *l, weft_error *err) {
     char why[900];
@@ -75,8 +80,7 @@ static weft_status find_foreign(const char *from, wf_setup *s, light *l, weft_er
     char why[900];
     weft_status status = ocio_entry("wf_ocio_input_open", &open, err);
     if (status) return status;
-    if (!open(l->config, from, &input, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (!open(l->config, from, &input, why, sizeof why)) return refuse(why, err);
     s->decode = input.decode;
     snprintf(s->from_transfer, sizeof s->from_transfer, "%s",
              s->decode.apply ? "encoded" : "linear");
@@ -92,8 +96,7 @@ static weft_status place_primaries(const weft_job *job, wf_setup *s, light *l,
     char why[900];
     weft_status status = ocio_entry("wf_ocio_input_open", &open, err);
     if (status) return status;
-    if (!open(l->config, NULL, &input, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (!open(l->config, NULL, &input, why, sizeof why)) return refuse(why, err);
     if (input.has_ap0) {
         snprintf(l->space, sizeof l->space, "%s", WF_OCIO_AP0);
         l->primaries = s->scene_primaries;
@@ -200,8 +203,7 @@ static weft_status open_ocio(const weft_job *job, const light *l, const char *to
                                  job->display, job->view,       job->look};
     weft_status status = ocio_entry("wf_ocio_open", &open, err);
     if (status) return status;
-    if (!open(&query, &s->transform, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
+    if (!open(&query, &s->transform, why, sizeof why)) return refuse(why, err);
     return l->primaries ? mix_first(l->primaries, s, err) : WEFT_OK;
 }
 
@@ -215,15 +217,13 @@ static bool shows_as(const wf_named_display *d, const wf_space *space) {
 }
 
 /* R'G'B' of a display becomes its light, and that the raster's R'G'B'. */
-static weft_status encode_again(const wf_named_display *d, const char *to, wf_setup *s,
+static weft_status encode_again(const wf_named_display *d, const wf_space *to, wf_setup *s,
                                 weft_error *err) {
-    char why[900];
     wf_transform decode, encode;
     if (!wf_decoding_transform(&d->decoding, &decode)) return no_memory(err);
     weft_status status = end_with(decode, s, err);
     if (status) return status;
-    if (!wf_builtin_from_light(d->primaries, to, &encode, why, sizeof why))
-        return wf_fail(err, WEFT_NO_MEMORY, "%s", why);
+    if (!wf_builtin_from_light(d->primaries, to, &encode)) return no_memory(err);
     return end_with(encode, s, err);
 }
 
@@ -238,7 +238,7 @@ static weft_status settle_view(const weft_job *job, const light *l, wf_setup *s,
     weft_status status = ocio_entry("wf_ocio_display_of", &display_of, err);
     if (status) return status;
     if (!display_of(l->config, job->display, job->view, &shown, why, sizeof why))
-        return wf_fail(err, WEFT_USAGE, "%s", why);
+        return refuse(why, err);
     if (shown.is_data || s->output.kind->layout == WF_LINEAR) return WEFT_OK;
     if (!wf_named_display_of(shown.display, &display) &&
         !wf_named_display_of(shown.space, &display)) {
@@ -252,7 +252,7 @@ static weft_status settle_view(const weft_job *job, const light *l, wf_setup *s,
     const wf_space *target = wf_space_find(to, why, sizeof why);
     snprintf(s->color_space, sizeof s->color_space, "%s", to);
     if (!target || shows_as(&display, target)) return WEFT_OK;
-    return encode_again(&display, to, s, err);
+    return encode_again(&display, target, s, err);
 }
 
 static weft_status choose_transform(const weft_job *job, const light *l, wf_setup *s,
@@ -270,8 +270,9 @@ static weft_status choose_transform(const weft_job *job, const light *l, wf_setu
         return status || to ? status : settle_view(job, l, s, err);
     }
     char why[900];
-    if (wf_builtin_from_light(l->primaries, to, &s->transform, why, sizeof why)) return WEFT_OK;
-    return wf_fail(err, WEFT_USAGE, "%s", why);
+    const wf_space *space = wf_space_find(to, why, sizeof why);
+    if (!space) return wf_fail(err, WEFT_USAGE, "%s", why);
+    return wf_builtin_from_light(l->primaries, space, &s->transform) ? WEFT_OK : no_memory(err);
 }
 
 static bool left_linear(const weft_job *job, const wf_output_kind *kind) {

@@ -95,7 +95,7 @@ weft_status wf_page_shown_new(const wf_video_info *info, wf_page_shown **out, we
     s->form = form_of(info, space);
     weft_status status = WEFT_OK;
     if (space && !wf_builtin_transform(space, "rec709", &s->to_709, why, sizeof why))
-        status = wf_fail(err, WEFT_FAILED, "%s", why);
+        status = wf_fail(err, WEFT_NO_MEMORY, "%s", why);
     if (!status) status = wf_signals_new(info, &s->signals, err);
     if (!status) status = wf_signal_new(s->signals, &s->signal, err);
     if (!status && !make_room(s))

@@ -62,7 +62,7 @@ weft_status wf_signals_new(const wf_video_info *info, wf_signals **out, weft_err
     weft_status status = WEFT_OK;
     if (info->layout == WF_LINEAR &&
         !wf_builtin_transform("lin_rec709", s->colors->space, &s->transform, why, sizeof why))
-        status = wf_fail(err, WEFT_FAILED, "%s", why);
+        status = wf_fail(err, WEFT_NO_MEMORY, "%s", why); /* both spaces are known */
     if (!status && !make_room(s))
         status = wf_fail(err, WEFT_NO_MEMORY, "no memory for a frame");
     if (status)

@@ -175,6 +175,8 @@ def judge(kind, result, whole, place):
         return f"half-written after SIGKILL: {wrong}" if wrong else None
     if code < 0 or code > 3 or code == 0:
         return f"ended by {code}: {said[-300:]}"
+    if kind in ("alloc", "thread") and code == 2:
+        return f"no memory is told as a fault of the request: {said.strip()[:300]}"
     if not re.search("weft: .", said):
         return f"exit {code} without a message"
     wrong = [n for n, digest in made.items() if n.endswith(".tmp") or digest != good_made.get(n)]

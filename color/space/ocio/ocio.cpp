@@ -340,15 +340,18 @@ void explain(const char *file, const char *says, char *why, size_t why_size) {
         std::memcpy(why + why_size - 4, " ..", 4);
 }
 
-// Does work, of which nothing may be thrown at C.
+// Does work, of which nothing may be thrown at C. Without memory there is no reason: where
+// OpenColorIO meets that as it reads a configuration, its own exception says so in words alone.
 template <typename Work> bool guarded(const char *file, char *why, size_t why_size, Work work) {
+    if (why_size) *why = 0;
     try {
         work();
         return true;
     } catch (const std::bad_alloc &) {
-        explain(file, "out of memory", why, why_size);
+        return false;
     } catch (const std::exception &failure) {
-        explain(file, failure.what(), why, why_size);
+        if (!std::strstr(failure.what(), "bad_alloc"))
+            explain(file, failure.what(), why, why_size);
     } catch (...) {
         explain(file, "OpenColorIO failed and does not say why", why, why_size);
     }

@@ -14,7 +14,8 @@ typedef struct wf_ocio_query {
     const char *display, *view, *look;
 } wf_ocio_query;
 
-/* Unknown names are refused with the list of the names there are, and so is a space, a look or
+/* False with a reason, which is empty where memory is out, as those below do.
+ * Unknown names are refused with the list of the names there are, and so is a space, a look or
  * a view that is made of itself or gives no numbers for plain colors. Before OpenColorIO sees
  * them NaN is made 0, and Inf the largest half. */
 typedef bool wf_ocio_open_fn(const wf_ocio_query *query, wf_transform *out, char *why,

@@ -240,10 +240,10 @@ void wf_scene_tell_traced(const wf_run *run, wf_report *report) {
  * than the error asked for: 99 % of pixels are promised. */
 #define UNREACHED 0.02
 
-/* All that was looked at was proved to be background. */
+/* All that was looked at was proved to be background: of a run that came to its end. */
 static void warn_of_nothing(const wf_run *run, const wf_report *report) {
     const wf_scene_source *s = run->source;
-    if (report->tiles > 0 && report->tiles_skipped == report->tiles &&
+    if (run->finished && report->tiles > 0 && report->tiles_skipped == report->tiles &&
         s->scene.object_count > 0)
         wf_job_warn(run->job,
                     "%s: nothing of the scene is in view; look at eye= and look_at= of its "

@@ -234,7 +234,8 @@ static void any_primaries(void **state) {
     wf_transform t;
     char why[900];
     assert_int_equal(wf_primaries_like(&ap1), WF_PRIMARIES_AP1);
-    assert_true(wf_builtin_from_light(&ap1, "lin_rec709", &t, why, sizeof why));
+    const wf_space *rec709 = wf_space_find("lin_rec709", why, sizeof why);
+    assert_true(wf_builtin_from_light(&ap1, rec709, &t));
     t.apply(t.self, &rgb[0], &rgb[1], &rgb[2], 1);
     t.free(t.self);
     assert_true(wf_builtin_transform("ACEScg", "lin_rec709", &t, why, sizeof why));
