@@ -108,7 +108,8 @@ static weft_status refuse_compression(const wf_subframe *s, weft_error *err) {
     unsigned number = s->stream.unknown_compression;
     const char *name = number == 10   ? "HTJ2K256, of OpenEXR 3.4"
                        : number == 11 ? "HTJ2K32, of OpenEXR 3.4"
-                                      : "newer than those of OpenEXR 3.4, as Zstd is";
+                       : number == 12 ? "Zstd, of OpenEXR 3.5"
+                                      : "newer than those of OpenEXR 3.5";
     return wf_fail(
         err, WEFT_FAILED,
         "%s: its compression, number %u (%s), is none that weft reads; write it with "

@@ -27,11 +27,13 @@ static bool add_channels(const writer *w) {
     char *rest = NULL;
     for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest)) {
         char *factor = strchr(name, '/'), *whole = strchr(name, '#');
-        int step = factor ? atoi(factor + 1) : 1;
+        int across = factor ? atoi(factor + 1) : 1, down = across;
+        char *other = factor ? strchr(factor, 'x') : NULL;
+        if (other) down = atoi(other + 1);
         if (factor) *factor = '\0';
         if (whole) *whole = '\0';
         fine &= !exr_add_channel(w->exr, w->index, name, whole ? EXR_PIXEL_UINT : w->part->type,
-                                 EXR_PERCEPTUALLY_LOGARITHMIC, step, step);
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, across, down);
     }
     return fine;
 }
@@ -58,8 +60,7 @@ static bool describe(writer *w) {
                                          EXR_LINEORDER_INCREASING_Y, p->compression);
     if (fine && p->tile_width)
         fine = !exr_set_tile_descriptor(w->exr, w->index, (uint32_t)p->tile_width,
-                                        (uint32_t)p->tile_height, EXR_TILE_ONE_LEVEL,
-                                        EXR_TILE_ROUND_DOWN);
+                                        (uint32_t)p->tile_height, p->levels, p->round);
     fine = fine && add_channels(w) && set_ratio(w, "framesPerSecond", p->rate) &&
            set_ratio(w, "weft:time", p->time);
     if (fine && p->subframe_rate)
@@ -159,15 +160,27 @@ static bool write_lines(writer *w) {
     return fine;
 }
 
-static bool write_tiles(writer *w) {
+static bool write_level(writer *w, int level_x, int level_y) {
     const exr_part *p = w->part;
-    bool fine = true;
+    int width, lines;
     exr_chunk_info_t chunk;
-    for (int j = 0; p->data.y0 + j * p->tile_height < p->data.y1; j++)
-        for (int i = 0; p->data.x0 + i * p->tile_width < p->data.x1; i++)
-            fine = fine && !exr_write_tile_chunk_info(w->exr, w->index, i, j, 0, 0, &chunk) &&
-                   write_chunk(w, &chunk, p->data.x0 + i * p->tile_width,
-                               p->data.y0 + j * p->tile_height);
+    bool fine = !exr_get_level_sizes(w->exr, w->index, level_x, level_y, &width, &lines);
+    for (int j = 0; fine && j * p->tile_height < lines; j++)
+        for (int i = 0; fine && i * p->tile_width < width; i++)
+            fine =
+                !exr_write_tile_chunk_info(w->exr, w->index, i, j, level_x, level_y, &chunk) &&
+                write_chunk(w, &chunk, p->data.x0 + i * p->tile_width,
+                            p->data.y0 + j * p->tile_height);
+    return fine;
+}
+
+static bool write_tiles(writer *w) {
+    int across = 1, down = 1;
+    bool fine = !exr_get_tile_levels(w->exr, w->index, &across, &down);
+    bool all = w->part->levels == EXR_TILE_RIPMAP_LEVELS;
+    for (int y = 0; fine && y < down; y++)
+        for (int x = all ? 0 : y; fine && x < (all ? across : y + 1); x++)
+            fine = write_level(w, x, y);
     return fine;
 }
 
