@@ -31,6 +31,11 @@ void wf_histogram_add(wf_histogram *h, float value) {
     h->count++;
 }
 
+void wf_histogram_add_zeros(wf_histogram *h, uint64_t count) {
+    h->bin[0] += count;
+    h->count += count;
+}
+
 double wf_histogram_rms(const wf_histogram *h) {
     return h->count ? sqrt(h->squares / (double)h->count) : NAN;
 }

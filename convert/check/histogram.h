@@ -20,6 +20,7 @@ void wf_histogram_free(wf_histogram *h);
 
 /* Negative values and NaN are not counted. */
 void wf_histogram_add(wf_histogram *h, float value);
+void wf_histogram_add_zeros(wf_histogram *h, uint64_t count); /* so many times 0 */
 
 /* NaN where there are no values. share is that of the values above limit; the quantile of a
  * share, 0 to 1, is the value that so many do not exceed. */

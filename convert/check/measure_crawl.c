@@ -79,7 +79,7 @@ wf_crawl *wf_crawl_new(const wf_video_info *info, const wf_measure_options *opti
     c->lines = info->lines;
     c->samples = (size_t)info->width_px * (size_t)info->lines;
     c->first = info->raster.top_first ? 0 : 1;
-    c->seen = wf_seen_new(&viewing);
+    c->seen = wf_seen_new(&viewing, 2, 1);
     bool made = c->seen && make_planes(c);
     made &= wf_histogram_init(&c->values, 1);
     made &= wf_histogram_init(&c->jnds, 1);
@@ -134,10 +134,18 @@ static two_lines lines_about(const wf_crawl *c, int64_t n, int k, int y, int dow
                        light + (size_t)below * (size_t)c->width_px};
 }
 
+static float less(float a, float b) {
+    return a < b ? a : b;
+}
+
+static float more(float a, float b) {
+    return a > b ? a : b;
+}
+
 /* How far a value is from what two lines span. */
 static float outside_of(two_lines t, size_t x, float value) {
-    float low = fminf(t.above[x], t.below[x]), high = fmaxf(t.above[x], t.below[x]);
-    return fmaxf(0, fmaxf(low - value, value - high));
+    float low = less(t.above[x], t.below[x]), high = more(t.above[x], t.below[x]);
+    return more(0, more(low - value, value - high));
 }
 
 /* Marks what the fields in between do not lead to: what has come back to its like, as a wheel's
@@ -154,9 +162,9 @@ static void mark_jumps(wf_crawl *c, int64_t n, int down, bool *marked) {
         for (size_t x = 0; x < width; x++) {
             float low = own[x], high = own[x], farthest = 0;
             for (int k = 1; k < FIELDS; k++) {
-                low = fminf(low, fminf(field[k].above[x], field[k].below[x]));
-                high = fmaxf(high, fmaxf(field[k].above[x], field[k].below[x]));
-                farthest = fmaxf(farthest, outside_of(field[k], x, own[x]));
+                low = less(low, less(field[k].above[x], field[k].below[x]));
+                high = more(high, more(field[k].above[x], field[k].below[x]));
+                farthest = more(farthest, outside_of(field[k], x, own[x]));
             }
             c->same[x] = farthest <= same + most * (high - low);
         }
@@ -165,13 +173,23 @@ static void mark_jumps(wf_crawl *c, int64_t n, int down, bool *marked) {
 }
 
 /* Line y of a field, y in half lines: between two lines their mean. */
-static float at_half_line(const wf_crawl *c, const float *field, int half_y, int x) {
+static two_lines lines_at_half(const wf_crawl *c, const float *field, int half_y) {
     int most = c->lines - 1, y = half_y >> 1, next = y + (half_y & 1);
     y = y < 0 ? 0 : y < most ? y : most;
     next = next < 0 ? 0 : next < most ? next : most;
     size_t width = (size_t)c->width_px;
-    return 0.5f *
-           (field[(size_t)y * width + (size_t)x] + field[(size_t)next * width + (size_t)x]);
+    return (two_lines){field + (size_t)y * width, field + (size_t)next * width};
+}
+
+static float mean_of(two_lines t, size_t x) {
+    return 0.5f * (t.above[x] + t.below[x]);
+}
+
+/* Whether any pixel of a line moves and does not stray. */
+static bool drifts(const bool *moves, const bool *strays, size_t width) {
+    bool any = false;
+    for (size_t x = 0; x < width; x++) any |= moves[x] & !strays[x];
+    return any;
 }
 
 /* The part of four fields that has one period in them, as a complex amplitude, and their mean,
@@ -182,11 +200,13 @@ static void modulation_of_line(wf_crawl *c, const float *const field[FIELDS], in
     size_t width = (size_t)c->width_px, at = (size_t)half_y * width;
     const bool *moves = c->moves + (size_t)(half_y / 2) * width;
     const bool *strays = c->strays + (size_t)(half_y / 2) * width;
+    two_lines line[FIELDS];
+    if (!drifts(moves, strays, width)) return;
+    for (int k = 0; k < FIELDS; k++) line[k] = lines_at_half(c, field[k], half_y + k * down);
     for (size_t x = 0; x < width; x++, at++) {
         float light[FIELDS];
         if (!moves[x] || strays[x]) continue;
-        for (int k = 0; k < FIELDS; k++)
-            light[k] = at_half_line(c, field[k], half_y + k * down, (int)x);
+        for (int k = 0; k < FIELDS; k++) light[k] = mean_of(line[k], x);
         float real = 0.5f * (light[0] - light[2]), imaginary = 0.5f * (light[3] - light[1]);
         float before = c->real[at] * c->real[at] + c->imaginary[at] * c->imaginary[at];
         if (real * real + imaginary * imaginary <= before) continue;
@@ -199,11 +219,13 @@ static void modulation_of_line(wf_crawl *c, const float *const field[FIELDS], in
 /* Without a modulation, and the light of both fields of frame n. */
 static void clear_line(wf_crawl *c, int64_t n, int half_y) {
     size_t width = (size_t)c->width_px, at = (size_t)half_y * width;
-    for (size_t x = 0; x < width; x++, at++) {
-        c->real[at] = c->imaginary[at] = 0;
-        c->mean[at] = 0.5f * (at_half_line(c, c->field[n % FRAMES][0], half_y, (int)x) +
-                              at_half_line(c, c->field[n % FRAMES][1], half_y, (int)x));
-    }
+    two_lines first = lines_at_half(c, c->field[n % FRAMES][0], half_y);
+    two_lines second = lines_at_half(c, c->field[n % FRAMES][1], half_y);
+    float *restrict mean = c->mean + at;
+    memset(c->real + at, 0, width * sizeof *c->real);
+    memset(c->imaginary + at, 0, width * sizeof *c->imaginary);
+    for (size_t x = 0; x < width; x++)
+        mean[x] = 0.5f * (mean_of(first, x) + mean_of(second, x));
 }
 
 /* Counts what drifts down, or up: down is 1 or -1. False: there is nothing that moves. What
@@ -214,7 +236,7 @@ static bool count_direction(wf_crawl *c, int64_t n, int down) {
     mark_jumps(c, n, down, c->strays);
     for (size_t i = 0; i < c->samples; i++) {
         c->counted[i] |= !c->strays[i];
-        any |= c->moves[i] && !c->strays[i];
+        any |= c->moves[i] & !c->strays[i];
     }
     return any;
 }
@@ -236,20 +258,33 @@ static bool find_modulation(wf_crawl *c, int64_t n) {
     return any;
 }
 
+/* Counts a pixel of which something comes and goes; at: its place among half lines. */
+static void count_pixel(wf_crawl *c, size_t i, size_t at) {
+    wf_histogram_add(&c->values, hypotf(c->real[at], c->imaginary[at]));
+    wf_histogram_add(&c->jnds, c->jnd[i]);
+    wf_heat_add(&c->heat, i, c->jnd[i]);
+}
+
 /* Adds frame n and the three fields after its first, of which the frame n + 2 has to be known.
  */
 static void add_frame(wf_crawl *c, int64_t n) {
     size_t width = (size_t)c->width_px;
     bool any = find_modulation(c, n);
+    uint64_t zeros = 0;
     if (any) wf_seen_jnd(c->seen, c->real, c->imaginary, c->mean, c->jnd);
-    for (size_t i = 0; i < c->samples; i++) {
-        size_t at = i + i / width * width; /* the same place among half lines */
-        float seen = any ? c->jnd[at] : 0;
-        if (!c->counted[i]) continue;
-        wf_histogram_add(&c->values, any ? hypotf(c->real[at], c->imaginary[at]) : 0);
-        wf_histogram_add(&c->jnds, seen);
-        wf_heat_add(&c->heat, i, seen);
-    }
+    for (size_t y = 0, i = 0; y < (size_t)c->lines; y++)
+        for (size_t x = 0; x < width; x++, i++) {
+            size_t at = i + y * width;
+            if (!c->counted[i]) continue;
+            if (any && (c->jnd[i] > 0 || c->real[at] != 0 || c->imaginary[at] != 0)) {
+                count_pixel(c, i, at);
+                continue;
+            }
+            zeros++;
+            wf_heat_add(&c->heat, i, 0);
+        }
+    wf_histogram_add_zeros(&c->values, zeros);
+    wf_histogram_add_zeros(&c->jnds, zeros);
 }
 
 /* ---- All ---- */

@@ -48,7 +48,7 @@ wf_flicker *wf_flicker_new(const wf_video_info *info, const wf_measure_options *
     f->lines = info->lines;
     f->drop = options->display == WF_DISPLAY_CRT ? 1 - CRT_LEFT : 1;
     f->heat_kind = options->heat;
-    f->seen = wf_seen_new(&viewing);
+    f->seen = wf_seen_new(&viewing, 1, 1);
     f->same = malloc(samples * sizeof *f->same);
     f->modulation = malloc(samples * sizeof *f->modulation);
     f->mean = malloc(samples * sizeof *f->mean);
@@ -80,13 +80,23 @@ static bool find_modulation(wf_flicker *f, const wf_shown *shown) {
 
 static void count(wf_flicker *f) {
     size_t samples = (size_t)f->width_px * (size_t)f->lines;
+    uint64_t zeros = 0, unseen = 0;
     for (size_t i = 0; i < samples; i++) {
         if (!f->same[i]) continue;
-        float value = f->drop * fabsf(f->modulation[i]);
-        wf_histogram_add(&f->values, value);
-        wf_histogram_add(&f->jnds, f->jnd[i]);
-        wf_heat_add(&f->heat, i, f->heat_kind == WF_HEAT_FLICKER ? value : f->jnd[i]);
+        float value = f->drop * fabsf(f->modulation[i]), seen = f->jnd[i];
+        if (value > 0)
+            wf_histogram_add(&f->values, value);
+        else
+            zeros++;
+        if (seen > 0)
+            wf_histogram_add(&f->jnds, seen);
+        else
+            unseen++;
+        if (f->heat.square)
+            wf_heat_add(&f->heat, i, f->heat_kind == WF_HEAT_FLICKER ? value : seen);
     }
+    wf_histogram_add_zeros(&f->values, zeros);
+    wf_histogram_add_zeros(&f->jnds, unseen);
 }
 
 void wf_flicker_add(wf_flicker *f, const wf_signal *frame, const wf_signal *other,

@@ -21,19 +21,18 @@ static line_pair lines_at(const float *light, int width_px, int lines, int y) {
     return (line_pair){own, above, below};
 }
 
-static float stretched(line_pair p, int x) {
-    return 0.5f * (p.above[x] + p.below[x]);
-}
-
 void wf_same_content(const float *light, const float *other, int width_px, int lines, int y,
-                     int down, bool *same) {
+                     int down, bool *restrict same) {
     if (y + down < 0 || y + down >= lines) {
         memset(same, 0, (size_t)width_px * sizeof *same);
         return;
     }
     line_pair a = lines_at(light, width_px, lines, y);
     line_pair b = lines_at(other, width_px, lines, y + down);
-    for (int x = 0; x < width_px; x++)
-        same[x] = fabsf(a.own[x] - b.own[x]) <= SAME &&
-                  fabsf(stretched(a, x) - stretched(b, x)) <= SAME;
+    for (int x = 0; x < width_px; x++) {
+        float about_a = 0.5f * (a.above[x] + a.below[x]);
+        float about_b = 0.5f * (b.above[x] + b.below[x]);
+        /* Both are looked at everywhere, for vectors have no branches. */
+        same[x] = (fabsf(a.own[x] - b.own[x]) <= SAME) & (fabsf(about_a - about_b) <= SAME);
+    }
 }

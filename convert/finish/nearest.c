@@ -87,7 +87,7 @@ static bool make(wf_nearest *f) {
     f->own = malloc((fields * own_samples(d) + 1) * sizeof *f->own);
     bool good = f->least && f->solvers && f->planes && f->own;
     if (d->limit_is_seen) {
-        f->seen = wf_seen_new(&d->viewing);
+        f->seen = wf_seen_new(&d->viewing, 1, 1);
         f->limits = malloc(plane_samples(d) * sizeof *f->limits);
         good = good && f->seen && f->limits;
     }

@@ -192,7 +192,7 @@ static void gratings_through_the_bank(void **state) {
     static wf_eye eye;
     for (int h = 0; h < 3; h++) {
         wf_viewing v = small_viewing(heights[h]);
-        wf_seen *seen = wf_seen_new(&v);
+        wf_seen *seen = wf_seen_new(&v, 1, 1);
         wf_eye_init(&eye, &v);
         assert_non_null(seen);
         for (double f = 0; f < 0.3; f += 0.04) { /* cycles a line */
@@ -262,7 +262,7 @@ static void noise_against_the_definition(void **state) {
     static wf_eye eye;
     uint32_t seed = 5;
     wf_viewing v = small_viewing(12);
-    wf_seen *seen = wf_seen_new(&v);
+    wf_seen *seen = wf_seen_new(&v, 1, 1);
     wf_eye_init(&eye, &v);
     assert_non_null(seen);
     for (int y = 0; y < LINES; y++)
@@ -283,13 +283,47 @@ static void noise_against_the_definition(void **state) {
     wf_seen_free(seen);
 }
 
+/* What is left out, where there is nothing, and pieces that several workers take in any order,
+ * are the same in every bit as a picture that has something everywhere: 1e-30 of white, which
+ * is far below the last bit of what is seen. */
+static void pieces_of_sparse_pictures(void **state) {
+    (void)state;
+    static float pieces[LINES][WIDTH];
+    uint32_t seed = 7;
+    wf_viewing v = small_viewing(3);
+    wf_seen *all = wf_seen_new(&v, 1, 1), *some = wf_seen_new(&v, 3, 4);
+    assert_true(all && some);
+    for (int kind = 0; kind < 4; kind++) {
+        for (int y = 0; y < LINES; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                bool there = kind < 2 ? uniform(&seed) < 0.001 : x + y < 9;
+                mean[y][x] = (float)(0.05 + 0.9 * uniform(&seed));
+                real[y][x] = there ? 0.1f : 0;
+                other[y][x] = real[y][x] + 1e-30f;
+            }
+        const float *turn = kind % 2 ? real[0] : NULL, *turns = kind % 2 ? other[0] : NULL;
+        wf_seen_jnd(all, other[0], turns, mean[0], jnd[0]);
+        wf_seen_begin(some, real[0], turn, mean[0], pieces[0]);
+        for (int n = wf_seen_preparations(some) - 1; n >= 0; n--)
+            wf_seen_prepare(some, n % 4, n);
+        for (int n = wf_seen_tiles(some) - 1; n >= 0; n--) wf_seen_tile(some, (n + 1) % 4, n);
+        for (int y = 0; y < LINES; y += 3)
+            for (int x = 0; x < WIDTH; x++)
+                if (fabs((double)jnd[y][x] - (double)pieces[y / 3][x]) > 1e-25)
+                    fail_msg("kind %d at %d, %d: %g and not %g", kind, x, y,
+                             (double)pieces[y / 3][x], (double)jnd[y][x]);
+    }
+    wf_seen_free(all);
+    wf_seen_free(some);
+}
+
 /* Modulations of any sign that keep to the bound are not seen more than it allows. */
 static void the_bound_holds(void **state) {
     (void)state;
     static float bound[LINES][WIDTH];
     uint32_t seed = 9;
     wf_viewing v = small_viewing(6);
-    wf_seen *seen = wf_seen_new(&v);
+    wf_seen *seen = wf_seen_new(&v, 1, 1);
     assert_non_null(seen);
     for (int kind = 0; kind < 4; kind++) {
         for (int y = 0; y < LINES; y++)
@@ -321,6 +355,7 @@ int main(void) {
         cmocka_unit_test(the_bank_has_the_sensitivity),
         cmocka_unit_test(gratings_through_the_bank),
         cmocka_unit_test(noise_against_the_definition),
+        cmocka_unit_test(pieces_of_sparse_pictures),
         cmocka_unit_test(the_bound_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

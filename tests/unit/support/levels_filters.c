@@ -6,7 +6,7 @@
 #include "filters/gather/samples_inside.h"
 #include "filters/least/pack.h"
 #include "filters/resample/rows.h"
-#include "filters/seen/seen.h"
+#include "filters/seen/seen_ops.h"
 #include "tests/unit/support/levels.h"
 
 /* ---- Rows ---- */
@@ -344,14 +344,14 @@ static const level_row gathering[] = {{"gather.add", gather, true, 1e-13}};
 
 static void down(level_run *r) {
     enum { MOST_ROWS = 7 };
-    size_t taps = 1 + level_draw(r) % MOST_ROWS;
+    size_t taps = 1 + level_draw(r) % MOST_ROWS, x = level_draw(r) % 3;
     const float *row[MOST_ROWS];
     float *weight = level_floats(r, taps), *out = level_floats(r, r->count);
-    for (size_t k = 0; k < taps; k++) row[k] = level_floats(r, r->count);
-    if (!r->plain) wf_seen_ops_at(r->level)->down(out, row, weight, taps, r->count);
+    for (size_t k = 0; k < taps; k++) row[k] = level_floats(r, r->count + x);
+    if (!r->plain) wf_seen_ops_at(r->level)->down(out, row, x, weight, taps, r->count);
     for (size_t i = 0; r->plain && i < r->count; i++) {
         out[i] = 0;
-        for (size_t k = 0; k < taps; k++) out[i] += weight[k] * row[k][i];
+        for (size_t k = 0; k < taps; k++) out[i] += weight[k] * row[k][x + i];
     }
     level_keep_floats(r, out, r->count);
 }
@@ -369,30 +369,89 @@ static void across(level_run *r) {
     level_keep_floats(r, out, r->count);
 }
 
-/* Light over all octaves of the knots and beyond them. */
-static void add_band(level_run *r) {
+static void stretch(level_run *r) {
+    static const size_t steps[] = {1, 2, 4, 6, 8, 16, 32};
+    size_t step = steps[level_draw(r) % 7], means = 1 + r->count / step;
+    size_t count = step == 1 ? means + 1 : (means + 1) * step;
+    float *in = level_floats(r, means + 2), *out = level_floats(r, count);
+    in++;
+    if (!r->plain) wf_seen_ops_at(r->level)->stretch(out, in, step, means);
+    for (size_t i = 0; r->plain && i < count; i++) {
+        const float *before = in + i / step - 1;
+        float share = ((float)(i % step) + 0.5f) / (float)step;
+        out[i] = step == 1 ? in[i] : before[0] + share * (before[1] - before[0]);
+    }
+    level_keep_floats(r, out, count);
+}
+
+static double weight_of(const wf_eye *eye, int band, double cd_m2) {
+    cd_m2 = fmin(fmax(cd_m2, 0x1p-7), 16383);
+    int octave = (int)floor(log2(cd_m2));
+    double at = 4 * (octave - WF_EYE_LOW) + 4 * (cd_m2 / exp2(octave) - 1);
+    int knot = (int)at;
+    double a = (double)eye->weight[knot][band], b = (double)eye->weight[knot + 1][band];
+    return a + (at - knot) * (b - a);
+}
+
+/* Light over all octaves of the knots and beyond them, or all of it between two. */
+static void weigh(level_run *r) {
     static wf_eye eye;
-    int band = (int)(level_draw(r) % WF_EYE_BANDS);
     float white = (float)level_uniform(r, 1, 300), *sum = level_floats(r, r->count);
-    float *part = level_floats(r, r->count), *local = level_floats(r, r->count);
-    for (int k = 0; k < WF_EYE_KNOTS; k++) eye.weight[k][band] = (float)level_uniform(r, 0, 2);
-    for (size_t i = 0; i < r->count; i++) local[i] *= (float)exp2(level_uniform(r, -20, 12));
-    if (!r->plain)
-        wf_seen_ops_at(r->level)->add_band(sum, part, local, &eye, band, white, r->count);
+    float *local = level_floats(r, r->count);
+    const float *part[WF_EYE_BANDS];
+    bool even = level_draw(r) % 2;
+    double about = exp2(level_uniform(r, -20, 12));
+    for (int k = 0; k < WF_EYE_KNOTS * WF_EYE_BANDS; k++)
+        eye.weight[k / WF_EYE_BANDS][k % WF_EYE_BANDS] = (float)level_uniform(r, 0, 2);
+    for (size_t i = 0; i < r->count; i++)
+        local[i] = even ? (float)(about * level_uniform(r, 1, 1.02))
+                        : local[i] * (float)exp2(level_uniform(r, -20, 12));
+    for (int band = 0; band < WF_EYE_BANDS; band++) {
+        const float *there = level_floats(r, r->count);
+        part[band] = level_draw(r) % 4 ? there : NULL;
+    }
+    if (!r->plain) wf_seen_ops_at(r->level)->weigh(sum, part, local, &eye, white, r->count);
     for (size_t i = 0; r->plain && i < r->count; i++) {
-        double low = 0x1p-7, cd_m2 = fmin(fmax((double)(white * local[i]), low), 16383);
-        int octave = (int)floor(log2(cd_m2));
-        double at = 4 * (octave - WF_EYE_LOW) + 4 * (cd_m2 / exp2(octave) - 1);
-        int knot = (int)at;
-        double a = (double)eye.weight[knot][band], b = (double)eye.weight[knot + 1][band];
-        sum[i] += (float)((a + (at - knot) * (b - a)) * (double)part[i]);
+        double all = 0;
+        for (int band = 0; band < WF_EYE_BANDS; band++)
+            if (part[band])
+                all +=
+                    weight_of(&eye, band, (double)(white * local[i])) * (double)part[band][i];
+        sum[i] = (float)all;
     }
     level_keep_floats(r, sum, r->count);
 }
 
-static const level_row seeing[] = {{"seen.down", down, true, 0},
-                                   {"seen.across", across, true, 0},
-                                   {"seen.add_band", add_band, true, 1e-6}};
+static void see(level_run *r) {
+    float *jnd = level_floats(r, r->count), *real = level_floats(r, r->count);
+    float *imaginary = level_floats(r, r->count), *local = level_floats(r, r->count);
+    bool turns = level_draw(r) % 2;
+    for (size_t i = 0; i < r->count; i++) local[i] = 0.01f + fabsf(local[i]);
+    if (!r->plain)
+        wf_seen_ops_at(r->level)->see(jnd, real, turns ? imaginary : NULL, local, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++) {
+        double size = hypot((double)real[i], turns ? (double)imaginary[i] : 0);
+        jnd[i] = (float)(size / (double)local[i]);
+    }
+    level_keep_floats(r, jnd, r->count);
+}
+
+/* One that is not 0, or none; -0 is. */
+static void any(level_run *r) {
+    float *in = level_floats(r, r->count), found = 0;
+    size_t at = level_draw(r) % (2 * r->count + 1);
+    for (size_t i = 0; i < r->count; i++)
+        in[i] = i == at ? 1e-40f : level_draw(r) % 2 ? 0.0f : -0.0f;
+    if (!r->plain) found = wf_seen_ops_at(r->level)->any(in, r->count);
+    for (size_t i = 0; r->plain && i < r->count; i++)
+        if (in[i] < 0 || in[i] > 0) found = 1;
+    level_keep_floats(r, &found, 1);
+}
+
+static const level_row seeing[] = {
+    {"seen.down", down, true, 0},       {"seen.across", across, true, 0},
+    {"seen.stretch", stretch, true, 0}, {"seen.weigh", weigh, true, 1e-6},
+    {"seen.see", see, true, 1e-6},      {"seen.any", any, true, 0}};
 
 /* ---- Nearest pictures ---- */
 
