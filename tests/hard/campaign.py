@@ -46,7 +46,9 @@ def python_questions():
     return [sys.executable, "-P", "-c", """
 import sys, weft
 wrong = 0
-for ask in (lambda: weft.measure('video.y4m'), lambda: weft.verify('video.y4m', raster='%s')[0]['right'] or 1 / 0,
+def right(v):
+    if not v['right']: raise ZeroDivisionError(str(v))
+for ask in (lambda: weft.measure('video.y4m'), lambda: right(weft.verify('video.y4m', raster='%s')[0]),
             lambda: weft.info('video.y4m'), lambda: weft.filters('box'), lambda: weft.read('video.y4m', frames=1)):
     try:
         ask()
@@ -290,7 +292,7 @@ def main():
             runs, ended = runs + len(results), ended + len(wrong)
             pool.append(place)
             continue
-        if "####" in command[-1] and whole[0] == 0:
+        if "####" in command[-1] and "--key" not in command and whole[0] == 0:
             for _ in range(options.resumes):
                 runs += 1
                 why = resumes(command, place, whole)
