@@ -100,11 +100,11 @@ convert/run/sum     : filters/* tracer/* convert/base convert/job convert/media 
 convert/run/source  : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/video convert/finish convert/run/time convert/run/sum
 convert/run         : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/write convert/video convert/finish convert/run/time convert/run/sum convert/run/source
 convert/plan        : filters/* convert/base convert/job convert/media convert/read convert/run convert/run/source convert/run/time
-convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read
+convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read convert/finish
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
 convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/check
-convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot convert/page
+convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot convert/page convert/finish
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/ask convert/page
 convert/program/plan : convert/base convert/job convert/plan convert/program
 convert/program/page : filters/* convert/base convert/job convert/page convert/program

@@ -13,7 +13,8 @@
 #include "convert/check/heat.h"
 #include "convert/plot/plot.h"
 
-#define MOST_LIMITS 32
+#define MOST_LIMITS  32
+#define MOST_THREADS 16 /* more would wait for memory, and each takes some */
 
 typedef struct asking {
     weft_job *job;
@@ -202,10 +203,15 @@ static weft_status measure_one(asking *a, const char *path, wf_json *json) {
 static weft_status measure_all(asking *a, weft_error *err) {
     wf_json json = {0};
     const weft_job *job = a->job;
-    weft_status status = WEFT_OK;
+    wf_crew crew;
+    weft_status status = wf_crew_new(a->job, 0, &crew, err);
+    if (status) return status;
+    if (crew.threads > MOST_THREADS) crew.threads = MOST_THREADS;
+    a->options.crew = &crew;
     if (job->input_count > 1) wf_json_open(&json, NULL, '[');
     for (size_t i = 0; i < job->input_count && status != WEFT_INTERRUPTED; i++)
         status = measure_one(a, job->inputs[i], &json);
+    wf_crew_free(&crew);
     weft_status told = wf_ask_report(a->job, &json, err);
     status = wf_troubles_end(&a->troubles, err);
     return status ? status : told;

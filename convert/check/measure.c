@@ -90,11 +90,17 @@ static weft_status open_reference(measuring *m, weft_error *err) {
     return m->difference ? WEFT_OK : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
 }
 
-/* What is shown takes about so many floats a pixel besides what frames and signals take. */
+static int threads_of(const measuring *m) {
+    return m->options->crew ? m->options->crew->threads : 1;
+}
+
+/* What is shown takes about so many floats a pixel besides what frames and signals take, and
+ * each thread some tiles of a few lines. */
 static weft_status check_memory(const measuring *m, weft_error *err) {
     const wf_video_info *info = wf_video_info_of(m->video);
     double floats = m->deinterlaces ? 54 : 38;
     double bytes = floats * sizeof(float) * info->width_px * info->lines;
+    bytes += 160.0 * sizeof(float) * info->width_px * threads_of(m);
     if (bytes <= (double)m->options->max_memory_bytes) return WEFT_OK;
     return wf_fail(
         err, WEFT_NO_MEMORY,
@@ -111,8 +117,8 @@ static weft_status begin_screen(measuring *m, weft_error *err) {
     if (!status) status = wf_screen_new(info, m->options->display, &m->screen, err);
     if (status) return status;
     bool drifts = info->raster.scan == WF_INTERLACED && info->scan_known;
-    m->flicker = wf_flicker_new(info, m->options);
-    m->crawl = drifts ? wf_crawl_new(info, m->options) : NULL;
+    m->flicker = wf_flicker_new(info, m->options, threads_of(m));
+    m->crawl = drifts ? wf_crawl_new(info, m->options, threads_of(m)) : NULL;
     if (m->flicker && (m->crawl || !drifts)) return WEFT_OK;
     return wf_fail(err, WEFT_NO_MEMORY, "%s: out of memory", m->path);
 }
@@ -178,18 +184,85 @@ static weft_status compare_shown(measuring *m, const wf_shown *shown, weft_error
     return status;
 }
 
-/* Shows a frame that `next` follows, `other` being the one its content is compared with: what
- * is still is the same in both. */
-static weft_status show(measuring *m, const wf_signal *frame, const wf_signal *next,
-                        const wf_signal *other, weft_error *err) {
+/* ---- One frame ---- */
+
+/* What is done at once of a frame that has been read, and of the one that is shown, which may
+ * be the one before it. NULL: there is none. Each of what is found and counted has a state of
+ * its own, so that threads may share these out; what is seen they share out by pieces. */
+typedef struct step {
+    measuring *m;
+    const wf_signal *read, *before;
+    const wf_signal *frame, *other; /* other: the one whose content is compared */
     const wf_shown *shown;
-    if (!m->screen) return WEFT_OK;
-    weft_status status = wf_screen_show(m->screen, frame, next, &shown, err);
-    if (status || !shown) return status;
-    wf_flicker_add(m->flicker, frame, other, shown);
-    if (m->crawl) wf_crawl_add(m->crawl, frame, shown);
-    return compare_shown(m, shown, err);
+    wf_seen *seen[2]; /* of flicker and of crawl, what has begun */
+} step;
+
+static void each(step *s, int count, wf_crew_work *work) {
+    wf_worker alone = {0};
+    if (s->m->options->crew)
+        wf_crew_each(s->m->options->crew, count, 1, work, s);
+    else
+        for (int n = 0; n < count; n++) work(s, &alone, n);
 }
+
+/* What takes longest comes first. */
+static void find_one(void *user, wf_worker *worker, int n) {
+    const step *s = user;
+    size_t kind = s->m->first + (size_t)n - 2;
+    (void)worker;
+    if (n == 0 && s->m->crawl && s->shown) wf_crawl_find(s->m->crawl, s->frame, s->shown);
+    if (n == 1 && s->m->flicker && s->shown)
+        wf_flicker_find(s->m->flicker, s->frame, s->other, s->shown);
+    if (n >= 2 && s->read) measurements[kind]->add(s->m->state[kind], s->read, s->before);
+}
+
+/* Calls a function of the one or the other of what is seen, for piece n of both. */
+static void do_piece(const step *s, const wf_worker *worker, int n,
+                     int (*count)(const wf_seen *seen),
+                     void (*piece)(wf_seen *seen, int worker, int n)) {
+    int first = s->seen[0] ? count(s->seen[0]) : 0;
+    if (n < first)
+        piece(s->seen[0], worker->number, n);
+    else
+        piece(s->seen[1], worker->number, n - first);
+}
+
+static int count_pieces(const step *s, int (*count)(const wf_seen *seen)) {
+    return (s->seen[0] ? count(s->seen[0]) : 0) + (s->seen[1] ? count(s->seen[1]) : 0);
+}
+
+static void prepare_one(void *user, wf_worker *worker, int n) {
+    do_piece(user, worker, n, wf_seen_preparations, wf_seen_prepare);
+}
+
+static void see_one(void *user, wf_worker *worker, int n) {
+    do_piece(user, worker, n, wf_seen_tiles, wf_seen_tile);
+}
+
+static void count_one(void *user, wf_worker *worker, int n) {
+    const step *s = user;
+    (void)worker;
+    if (n == 0 && s->m->crawl) wf_crawl_count(s->m->crawl);
+    if (n == 1) wf_flicker_count(s->m->flicker);
+}
+
+/* Measures a frame that has been read, and shows `frame`, which it follows. */
+static weft_status measure_frame(measuring *m, step s, weft_error *err) {
+    weft_status status = WEFT_OK;
+    s.m = m;
+    if (m->screen) status = wf_screen_show(m->screen, s.frame, s.read, &s.shown, err);
+    if (status) return status;
+    each(&s, 2 + (int)(MEASUREMENTS - m->first), find_one);
+    if (!s.shown) return WEFT_OK;
+    s.seen[0] = wf_flicker_begun(m->flicker);
+    s.seen[1] = m->crawl ? wf_crawl_begun(m->crawl) : NULL;
+    each(&s, count_pieces(&s, wf_seen_preparations), prepare_one);
+    each(&s, count_pieces(&s, wf_seen_tiles), see_one);
+    each(&s, 2, count_one);
+    return compare_shown(m, s.shown, err);
+}
+
+/* ---- All frames ---- */
 
 static wf_signal *signal_of(const measuring *m, int64_t frame) {
     return frame < 0 ? NULL : m->signal[frame % 2];
@@ -235,9 +308,9 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
         if (status || !frame) return status;
         wf_signal *signal = signal_of(m, m->frames);
         wf_signals_take(m->signals, frame, signal);
-        for (size_t i = m->first; i < MEASUREMENTS; i++)
-            measurements[i]->add(m->state[i], signal, signal_of(m, m->frames - 1));
-        status = show(m, signal_of(m, m->frames - 1), signal, signal, err);
+        const wf_signal *before = signal_of(m, m->frames - 1);
+        const step s = {.read = signal, .before = before, .frame = before, .other = signal};
+        status = measure_frame(m, s, err);
         if (status) return status;
         show_progress(m, m->frames + 1);
     }
@@ -251,7 +324,9 @@ static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) 
     figures->frames = m->frames;
     figures->info = *wf_video_info_of(m->video);
     const wf_signal *last = signal_of(m, m->frames - 1), *before = signal_of(m, m->frames - 2);
-    weft_status status = show(m, last, NULL, before, err);
+    weft_status status = measure_frame(m, (step){.frame = last, .other = before}, err);
+    if (!status && m->options->cancelled && *m->options->cancelled)
+        return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
     const wf_video_frame *none;
     if (!status && m->reference && m->deinterlaces)
         status = next_reference(m, false, &none, err);

@@ -23,6 +23,7 @@ struct wf_crawl {
     wf_seen *seen;
     /* Of frame n at n % FRAMES: its light, and its fields as shown, in the order of time. */
     float *light[FRAMES], *field[FRAMES][2];
+    bool any;   /* of the frames in hand: something comes and goes */
     bool *same; /* [width_px] */
     /* [lines][width_px]: something moves among the lines that are looked at for the pixel: a
      * still grating may look as if it drifted; something of it does not follow the drift; and
@@ -68,7 +69,8 @@ static bool make_planes(wf_crawl *c) {
     return made && c->same && c->moves && c->strays && c->counted;
 }
 
-wf_crawl *wf_crawl_new(const wf_video_info *info, const wf_measure_options *options) {
+wf_crawl *wf_crawl_new(const wf_video_info *info, const wf_measure_options *options,
+                       int threads) {
     wf_crawl *c = calloc(1, sizeof *c);
     if (!c) return NULL;
     double field_hz = 2 * wf_ratio_value(info->raster.frame_rate);
@@ -79,7 +81,7 @@ wf_crawl *wf_crawl_new(const wf_video_info *info, const wf_measure_options *opti
     c->lines = info->lines;
     c->samples = (size_t)info->width_px * (size_t)info->lines;
     c->first = info->raster.top_first ? 0 : 1;
-    c->seen = wf_seen_new(&viewing, 2, 1);
+    c->seen = wf_seen_new(&viewing, 2, threads);
     bool made = c->seen && make_planes(c);
     made &= wf_histogram_init(&c->values, 1);
     made &= wf_histogram_init(&c->jnds, 1);
@@ -265,18 +267,16 @@ static void count_pixel(wf_crawl *c, size_t i, size_t at) {
     wf_heat_add(&c->heat, i, c->jnd[i]);
 }
 
-/* Adds frame n and the three fields after its first, of which the frame n + 2 has to be known.
- */
-static void add_frame(wf_crawl *c, int64_t n) {
+/* Of a frame and the three fields after its first, once the frame two later is known. */
+void wf_crawl_count(wf_crawl *c) {
     size_t width = (size_t)c->width_px;
-    bool any = find_modulation(c, n);
     uint64_t zeros = 0;
-    if (any) wf_seen_jnd(c->seen, c->real, c->imaginary, c->mean, c->jnd);
+    if (c->frames < FRAMES) return;
     for (size_t y = 0, i = 0; y < (size_t)c->lines; y++)
         for (size_t x = 0; x < width; x++, i++) {
             size_t at = i + y * width;
             if (!c->counted[i]) continue;
-            if (any && (c->jnd[i] > 0 || c->real[at] != 0 || c->imaginary[at] != 0)) {
+            if (c->any && (c->jnd[i] > 0 || c->real[at] != 0 || c->imaginary[at] != 0)) {
                 count_pixel(c, i, at);
                 continue;
             }
@@ -289,14 +289,19 @@ static void add_frame(wf_crawl *c, int64_t n) {
 
 /* ---- All ---- */
 
-void wf_crawl_add(wf_crawl *c, const wf_signal *frame, const wf_shown *shown) {
+void wf_crawl_find(wf_crawl *c, const wf_signal *frame, const wf_shown *shown) {
     size_t bytes = c->samples * sizeof(float);
     int k = (int)(c->frames % FRAMES);
     memcpy(c->light[k], frame->light, bytes);
     for (int i = 0; i < 2; i++)
         memcpy(c->field[k][i], shown->field[i == 0 ? c->first : 1 - c->first], bytes);
     c->frames++;
-    if (c->frames >= FRAMES) add_frame(c, c->frames - FRAMES);
+    c->any = c->frames >= FRAMES && find_modulation(c, c->frames - FRAMES);
+    if (c->any) wf_seen_begin(c->seen, c->real, c->imaginary, c->mean, c->jnd);
+}
+
+wf_seen *wf_crawl_begun(const wf_crawl *c) {
+    return c->any ? c->seen : NULL;
 }
 
 void wf_crawl_finish(wf_crawl *c, wf_figures *figures) {

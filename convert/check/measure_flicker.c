@@ -22,6 +22,7 @@ struct wf_flicker {
     wf_histogram values, jnds;
     wf_seen *seen;
     bool *same;                     /* [lines][width_px] */
+    bool any;                       /* of the frame in hand: something comes and goes */
     float *modulation, *mean, *jnd; /* the same */
 };
 
@@ -38,7 +39,8 @@ void wf_flicker_free(wf_flicker *f) {
     free(f);
 }
 
-wf_flicker *wf_flicker_new(const wf_video_info *info, const wf_measure_options *options) {
+wf_flicker *wf_flicker_new(const wf_video_info *info, const wf_measure_options *options,
+                           int threads) {
     wf_flicker *f = calloc(1, sizeof *f);
     if (!f) return NULL;
     size_t samples = (size_t)info->width_px * (size_t)info->lines;
@@ -48,7 +50,7 @@ wf_flicker *wf_flicker_new(const wf_video_info *info, const wf_measure_options *
     f->lines = info->lines;
     f->drop = options->display == WF_DISPLAY_CRT ? 1 - CRT_LEFT : 1;
     f->heat_kind = options->heat;
-    f->seen = wf_seen_new(&viewing, 1, 1);
+    f->seen = wf_seen_new(&viewing, 1, threads);
     f->same = malloc(samples * sizeof *f->same);
     f->modulation = malloc(samples * sizeof *f->modulation);
     f->mean = malloc(samples * sizeof *f->mean);
@@ -78,9 +80,10 @@ static bool find_modulation(wf_flicker *f, const wf_shown *shown) {
     return any;
 }
 
-static void count(wf_flicker *f) {
+void wf_flicker_count(wf_flicker *f) {
     size_t samples = (size_t)f->width_px * (size_t)f->lines;
     uint64_t zeros = 0, unseen = 0;
+    if (!f->any) memset(f->jnd, 0, samples * sizeof *f->jnd);
     for (size_t i = 0; i < samples; i++) {
         if (!f->same[i]) continue;
         float value = f->drop * fabsf(f->modulation[i]), seen = f->jnd[i];
@@ -99,18 +102,19 @@ static void count(wf_flicker *f) {
     wf_histogram_add_zeros(&f->jnds, unseen);
 }
 
-void wf_flicker_add(wf_flicker *f, const wf_signal *frame, const wf_signal *other,
-                    const wf_shown *shown) {
+void wf_flicker_find(wf_flicker *f, const wf_signal *frame, const wf_signal *other,
+                     const wf_shown *shown) {
     size_t width = (size_t)f->width_px;
     if (!other) other = frame;
     for (int y = 0; y < f->lines; y++)
         wf_same_content(frame->light, other->light, f->width_px, f->lines, y, 0,
                         f->same + (size_t)y * width);
-    if (find_modulation(f, shown))
-        wf_seen_jnd(f->seen, f->modulation, NULL, f->mean, f->jnd);
-    else
-        memset(f->jnd, 0, width * (size_t)f->lines * sizeof *f->jnd);
-    count(f);
+    f->any = find_modulation(f, shown);
+    if (f->any) wf_seen_begin(f->seen, f->modulation, NULL, f->mean, f->jnd);
+}
+
+wf_seen *wf_flicker_begun(const wf_flicker *f) {
+    return f->any ? f->seen : NULL;
 }
 
 void wf_flicker_finish(wf_flicker *f, wf_figures *figures) {

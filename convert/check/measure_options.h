@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "convert/finish/crew.h"
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
 
@@ -43,6 +44,8 @@ typedef struct wf_measure_options {
     int64_t first_frame, frame_count; /* which to measure; count 0: all from the first on */
     bool of_delivery;                 /* only what a delivery is held to: order and legality */
     size_t max_memory_bytes;
+    wf_crew *crew; /* whose threads share the work; NULL: the caller's alone. Figures are the
+                      same for any */
     weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
     void *progress_user;
     const char *stage; /* what progress is told of; NULL: "measure". Static storage */

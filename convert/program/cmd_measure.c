@@ -8,7 +8,7 @@
 
 typedef struct measure_state {
     weft_measure asked;
-    const char *progress, *max_memory;
+    const char *progress, *max_memory, *threads;
     wf_meter meter;
     wf_cmd_list limits;
     bool json;
@@ -33,6 +33,7 @@ static weft_status measure(measure_state *s, weft_job *job, weft_error *err) {
     char *limits;
     weft_status status = wf_cmd_meter(&s->meter, s->progress, false, err);
     if (!status && s->max_memory) status = weft_job_set(job, "max-memory", s->max_memory, err);
+    if (!status && s->threads) status = weft_job_set(job, "threads", s->threads, err);
     if (!status) status = wf_cmd_join(&s->limits, ',', &limits, err);
     if (status) return status;
     s->asked.limit = limits;
@@ -95,6 +96,9 @@ static const wf_cmd_option options[] = {
       group},
      .offset = STATE(asked.heat)},
     {WF_CMD_PROGRESS(group), .offset = STATE(progress)},
+    {{"threads", "N", "all",
+      "How many processors to use; the figures are the same for any number.", group},
+     .offset = STATE(threads)},
     {{"max-memory", "SIZE", "2G", "How much memory the frames in hand may take.", group},
      .offset = STATE(max_memory)},
     {{"json", NULL, NULL, "Print JSON: an object, an array of several files.", group},

@@ -23,6 +23,20 @@ check "for people" exits 0 weft measure still.y4m
 check "it is told" prints " JND"
 check "a limit" exits 1 weft measure still.y4m --limit flicker.visible.jnd_p999=0.5
 check "which is said" says "flicker.visible.jnd_p999 is"
+
+# Any number of threads gives the same figures and the same heat, of what flickers and of what crawls.
+render slow_edges --raster 240x160@30i,tff --frames 0-4 -o slow.y4m
+for video in still slow; do
+    for threads in 1 2 5; do
+        check "$video with $threads threads" exits 0 \
+            weft measure $video.y4m --json --threads $threads --heatmap heat$threads.png --heat crawl
+        cp out threads$threads.json
+        check "the same figures" cmp threads$threads.json threads1.json
+        check "the same heat" cmp heat$threads.png heat1.png
+    done
+done
+check "no thread" refuses "--threads" measure still.y4m --threads 0
+
 check "no distance" refuses "--view-distance" measure still.y4m --view-distance 0
 check "no number" refuses "--view-distance" measure still.y4m --view-distance far
 check "too dark" refuses "--peak" measure still.y4m --peak 0.1
