@@ -10,7 +10,7 @@
 
 Each command of the program is a function: `convert`, `render`, `trace`, `plan`, `measure`, `verify`,
 `info`, `filters`, `composite`, `page`, `plot`, `rasters`. Video comes and goes as files or as NumPy arrays, finished
-video as a `Clip`; `read` makes one of a file. `Job` is one run with its progress and its cancelling; `Fields`
+video as a `Clip`; `read` makes one of a file. `Job` is one run with its progress and its canceling; `Fields`
 takes samples from a renderer and hands back finished fields; `apertures`, `aperture_response`, `raster`,
 `profiles` and `options` tell what there is. What goes wrong is a `weft.Error`, with the program's message.
 
