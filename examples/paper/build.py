@@ -15,7 +15,7 @@ from page import Report, asset
 from program import Failure, Weft
 
 EXPERIMENTS = ("lattice", "shapes", "camera", "carousel", "blur", "eyes", "wheels", "still", "slow",
-               "notch", "held", "color")
+               "notch", "held", "default", "color")
 
 
 class Context:

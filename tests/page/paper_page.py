@@ -18,7 +18,7 @@ from page_text import Structure, check, failed
 
 IDS = [f"fig-{n}" for n in range(1, 12)] + [
     "lattice", "rotated", "crawl", "slow-edges", "rule", "judder", "wheel", "wings", "per-object",
-    "bullseyes", "frontier", "player", "table"]
+    "bullseyes", "frontier", "default", "default-plot", "player", "table"]
 FADE = 0.14
 
 
@@ -35,8 +35,22 @@ def read(text, whole):
     check("pictures have words without tags", not unclean, str(unclean[:3]))
     for name in IDS if whole else ["player", "table"]:
         check(f"{name} is there", name in page.ids)
+    if "default" in page.ids or whole:
+        defaults(text)
     check("no number is missing", not re.search(r"\bnan\b|\binf\b|None", re.sub(
         r"data:image/png;base64,[A-Za-z0-9+/=]+|<script.*?</script>", "", text, flags=re.S)))
+
+
+def defaults(text):
+    """The default's figures are those that the bench publishes, which holds them to what it measured."""
+    bench = pathlib.Path(__file__).parent.parent / "bench/README.md"
+    rows = re.findall(r"^\| (\w+) \| (\d+) \| `(\w+)` \| (\d+) \+- (\d+) % \| ([\d.]+), ([\d.]+) \| `(\w+)` \|$",
+                      bench.read_text(encoding="utf-8"), re.M)
+    section = re.search(r'<section id="default".*?</section>', text, re.S)
+    said = " ".join(re.sub(r"<[^>]*>", " ", section.group() if section else "").split())
+    wanted = ["{} {} {} {} ± {} % {}, {} {}".format(*row) for row in rows]
+    check("the default's figures are the bench's", len(rows) == 3 and all(row in said for row in wanted),
+          str([row for row in wanted if row not in said]))
 
 
 # ---- Verdicts, told again from figures and thresholds ----

@@ -17,7 +17,7 @@ check "what was wrong is said" says "no such command"
 check "no page is left" test ! -e none/index.html
 
 only=() part=part
-if is_long; then part=whole; else only=(--only lattice); fi
+if is_long; then part=whole; else only=(--only lattice,default); fi
 check "page" python3 -B "$paper/build.py" --weft "$WEFT" --out page --quick "${only[@]}"
 check "what it shows" python3 -B "$WEFT_SOURCE/tests/page/paper_page.py" page/index.html "$chromium" $part
 finish
