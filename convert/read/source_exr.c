@@ -103,8 +103,9 @@ static weft_status lay_out_channels(wf_subframe *s, weft_error *err) {
 }
 
 /* A compression that is newer than OpenEXRCore, by its number in the file: the library says in
- * a message what that is, and goes on as if it were ZIP. */
-static weft_status refuse_compression(const wf_subframe *s, weft_error *err) {
+ * a message what that is, and goes on as if it were ZIP, or refuses what is deep. */
+static weft_status refuse_compression(const wf_subframe *s, const char *others,
+                                      weft_error *err) {
     unsigned number = s->stream.unknown_compression;
     const char *name = number == 10   ? "HTJ2K256, of OpenEXR 3.4"
                        : number == 11 ? "HTJ2K32, of OpenEXR 3.4"
@@ -112,9 +113,8 @@ static weft_status refuse_compression(const wf_subframe *s, weft_error *err) {
                                       : "newer than those of OpenEXR 3.5";
     return wf_fail(
         err, WEFT_FAILED,
-        "%s: its compression, number %u (%s), is none that weft reads; write it with "
-        "ZIP, PIZ or DWAA",
-        s->path, number, name);
+        "%s: its compression, number %u (%s), is none that weft reads; write it with %s",
+        s->path, number, name, others);
 }
 
 static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
@@ -123,7 +123,7 @@ static weft_status lay_out_chunks(wf_subframe *s, weft_error *err) {
     wf_exr_layout *l = &s->layout;
     exr_get_storage(s->exr, s->part, &storage);
     exr_get_compression(s->exr, s->part, &l->compression);
-    if (s->stream.unknown_compression) return refuse_compression(s, err);
+    if (s->stream.unknown_compression) return refuse_compression(s, "ZIP, PIZ or DWAA", err);
     if (storage == EXR_STORAGE_TILED) {
         if (exr_get_tile_sizes(s->exr, s->part, 0, 0, &l->tile_width, &l->tile_height) ||
             l->tile_width < 1 || l->tile_height < 1)
@@ -347,6 +347,12 @@ static weft_status start_reading(wf_subframe *s, weft_error *err) {
     weft_status status = wf_exr_stream_trouble(&s->stream, result, s->path, err);
     if (status) return status;
     const char *said = s->stream.said;
+    if (s->stream.unknown_compression) return refuse_compression(s, "ZIPS", err);
+    if (strstr(said, "compression for deep"))
+        return wf_fail(err, WEFT_FAILED,
+                       "%s: samples of deep pictures are compressed by none, RLE or ZIPS, and "
+                       "not as this file says",
+                       s->path);
     return wf_fail(
         err, WEFT_FAILED,
         "%s: not a readable EXR file: %s; it may still be being written, or is damaged",

@@ -1,5 +1,6 @@
 /* The EXR source under damaged files. The first byte chooses a good file, or none; what follows
- * are patches of three bytes (where, where, what), or the file itself. */
+ * are patches of three bytes (where, where, what), or the file itself: corpus/exr has weft's own,
+ * DWA, and levels of tiles, which are not made here. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

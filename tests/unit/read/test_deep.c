@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "convert/read/deep_read.h"
+#include "convert/read/source.h"
 #include "convert/write/deep_write.h"
 
 #define WIDTH 24
@@ -117,6 +118,44 @@ static void another_raster(void **state) {
     assert_non_null(strstr(err.text, "24x10"));
 }
 
+/* The file says that it has another compression. */
+static void relabel(int compression) {
+    static const char before[] = "compression\0compression\0\1\0\0"; /* and its 0 */
+    uint8_t bytes[4096];
+    FILE *f = fopen(path, "r+b");
+    assert_non_null(f);
+    size_t got = fread(bytes, 1, sizeof bytes, f);
+    const uint8_t *found = memmem(bytes, got, before, sizeof before);
+    assert_non_null(found);
+    assert_int_equal(fseek(f, (long)(found - bytes) + (long)sizeof before, SEEK_SET), 0);
+    fputc(compression, f);
+    assert_int_equal(fclose(f), 0);
+}
+
+static void other_compressions_are_named(void **state) {
+    static const struct {
+        int number;
+        const char *says;
+    } rows[] = {{3, "none, RLE or ZIPS"}, /* ZIP, which is of pictures */
+                {8, "none, RLE or ZIPS"},
+                {10, "HTJ2K256, of OpenEXR 3.4"},
+                {11, "HTJ2K32, of OpenEXR 3.4"},
+                {12, "Zstd, of OpenEXR 3.5"},
+                {13, "number 13"}};
+    const wf_source_options options = {.max_memory_bytes = (size_t)64 << 20};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        wf_subframe *s = NULL;
+        weft_error err = {""};
+        write_file();
+        relabel(rows[i].number);
+        assert_int_equal(wf_subframe_open(path, -1, &options, &s, &err), WEFT_FAILED);
+        if (!strstr(err.text, rows[i].says)) fail_msg("%d: %s", rows[i].number, err.text);
+        assert_null(strstr(err.text, "damaged"));
+    }
+    write_file();
+}
+
 /* Every byte in turn is another one, and the file ends anywhere: it is read, or refused with
  * the file's name, and nothing worse. */
 static void damage(void **state) {
@@ -154,8 +193,8 @@ static void damage(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(there_and_back),
-                                       cmocka_unit_test(another_raster),
-                                       cmocka_unit_test(damage)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(there_and_back), cmocka_unit_test(another_raster),
+        cmocka_unit_test(other_compressions_are_named), cmocka_unit_test(damage)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
