@@ -7,7 +7,7 @@ build_packages=(build-essential cmake ninja-build pkg-config libopenexr-dev libo
                 liblua5.4-dev libjansson-dev libavformat-dev libavcodec-dev
                 libswresample-dev libavfilter-dev)
 test_packages=(libcmocka-dev clang libclang-rt-14-dev libomp-14-dev ffmpeg mediainfo python3
-               openimageio-tools chromium mandoc groff-base zsh fish python3-numpy parallel
+               openimageio-tools openexr chromium mandoc groff-base zsh fish python3-numpy parallel
                slurmctld slurmd slurm-client iproute2 lintian file mkdocs doxygen hunspell hunspell-en-us)
 # What the campaigns of `tests/run.sh all` need besides.
 campaign_packages=(blender povray mmdebstrap)

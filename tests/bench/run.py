@@ -3,10 +3,14 @@
 
     tests/bench/run.py BUILD                     everything that is installed takes part
     tests/bench/run.py BUILD --small             minutes less: ratios and counts only
-    tests/bench/run.py BUILD --only tracer       one of: converter, tracer, targets, crowds, peers
-    tests/bench/run.py BUILD --publish           writes the results into README.md; crowds
-                                                 alone have a table there of their own, and of
-                                                 the tracer alone rows take those of before
+    tests/bench/run.py BUILD --only tracer       one of: converter, tracer, targets, compressions,
+                                                 startup, crowds, peers
+    tests/bench/run.py BUILD --before WEFT       an older program, which must not have been faster
+    tests/bench/run.py BUILD --rounds N          how often what is compared takes turns [5]
+    tests/bench/run.py BUILD --publish           writes the results into README.md; crowds,
+                                                 compressions and startup alone have tables
+                                                 there of their own, and of the tracer alone
+                                                 rows take those of before
     tests/bench/run.py BUILD --out DIR           where CSV and plots go [BUILD/bench]
 
 WEFT_SHARED names a directory of sample data; without its wheel/ some targets are skipped, and
@@ -27,6 +31,7 @@ import time
 
 import crowds
 import plot
+import reading
 import scenes
 import videos
 
@@ -47,7 +52,8 @@ class Bench:
         self.rows = []  # targets: (what, measured, target, met or None, note)
         shared = os.environ.get("WEFT_SHARED", "")
         self.wheel = sorted(glob.glob(os.path.join(shared, "data/wheel/*.exr"))) if shared else []
-        self.rounds = 3 if self.small else 5
+        self.rounds = options.rounds or (3 if self.small else 5)
+        self.before = options.before and os.path.abspath(options.before)
         os.makedirs(self.out, exist_ok=True)
 
     def program(self, name):
@@ -199,40 +205,6 @@ def subframes(bench):
                      note=found and f"{found / whole:.2f} x what it takes")
 
 
-def cpu_seconds(way):
-    """What the processor gives children of this process while `way` runs."""
-    before = os.times()
-    way()
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
-
-
-def compressions(bench):
-    """48 noisy subframes, so that no chunk repeats, in the compressions of other renderers."""
-    asked = {"piz": 2, "dwaa": 4, "dwab": 4, "zips": 3, "zip": 3, "pxr24": 3, "rle": 2}
-    ready = len(bench.wheel) >= 48 and shutil.which("oiiotool") and shutil.which("ffmpeg")
-    for how, least in asked.items():
-        times = {"weft": [], "ffmpeg": []}
-        if ready:
-            folder = bench.path(how)
-            os.makedirs(folder)
-            files = [os.path.join(folder, f"{n:04}.exr") for n in range(48)]
-            for n, name in enumerate(files):
-                subprocess.run(["oiiotool", bench.wheel[n], f"--noise:type=gaussian:stddev=.03:seed={n}",
-                                "--clamp:min=0", "-d", "half", "--compression", how, "-o", name], check=True)
-            for _ in range(bench.rounds):
-                times["weft"].append(cpu_seconds(
-                    lambda: bench.weft("convert", *files, "--subframe-rate", "480000/1001", "--temporal-width", "1",
-                                       "--raster", "525i", "-o", bench.path("a.y4m"))))
-                times["ffmpeg"].append(cpu_seconds(lambda: ffmpeg_way(bench, files)))
-            shutil.rmtree(folder)
-        weft, ffmpeg = (median(times[name]) if ready else None for name in ("weft", "ffmpeg"))
-        bench.target(f"48 noisy subframes of {how.upper()}, beside ffmpeg", ffmpeg / weft if ready else None,
-                     least=least, unit="x faster",
-                     note=f"{weft:.2f} and {ffmpeg:.2f} s of the processor" if ready
-                     else "wants wheel/, oiiotool, ffmpeg")
-
-
 def stages(bench):
     """What filters and colors alone take, beside zimg."""
     add = {line.split()[0]: float(line.split("add")[1].split()[0])
@@ -319,7 +291,6 @@ def targets(bench):
     if bench.small:
         return
     subframes(bench)
-    compressions(bench)
     stages(bench)
     memory(bench)
     videos.video(bench)
@@ -348,15 +319,26 @@ def table(bench):
     return text
 
 
-def publish_crowds(bench, text):
-    """Writes a run of crowds alone into README.md."""
-    page = os.path.join(HERE, "README.md")
-    with open(page) as f:
-        before, rest = f.read().split("<!-- crowds -->\n")
-    after = rest.split("<!-- crowds end -->")[1]
-    with open(page, "w") as f:
-        f.write(f"{before}<!-- crowds -->\n{time.strftime('%Y-%m-%d')}, one thread of "
-                f"{machine().split(' of ')[1]}.\n\n{text}<!-- crowds end -->{after}")
+def publish_part(name, ran):
+    """Has a run of one part alone written into README.md, where it has a table; ran: on what."""
+    def write(bench, text):
+        page = os.path.join(HERE, "README.md")
+        with open(page) as f:
+            before, rest = f.read().split(f"<!-- {name} -->\n")
+        after = rest.split(f"<!-- {name} end -->")[1]
+        with open(page, "w") as f:
+            f.write(f"{before}<!-- {name} -->\n{time.strftime('%Y-%m-%d')}, {ran()}.\n\n{text}"
+                    f"<!-- {name} end -->{after}")
+    return write
+
+
+def one_thread():
+    return f"one thread of {machine().split(' of ')[1]}"
+
+
+def with_load():
+    """Other work takes seconds of a clock and caches, and of the processor's seconds a few."""
+    return f"{machine()}, while {os.getloadavg()[2]:.0f} other processes or so were at work"
 
 
 def copy_plots(bench):
@@ -404,19 +386,24 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("--small", action="store_true")
-    parser.add_argument("--only", default="converter,tracer,targets,crowds,peers")
+    parser.add_argument("--only", default="converter,tracer,targets,compressions,startup,crowds,peers")
+    parser.add_argument("--before")
+    parser.add_argument("--rounds", type=int)
     parser.add_argument("--publish", action="store_true")
     parser.add_argument("--out")
     options = parser.parse_args()
     bench = Bench(options)
     parts = {"converter": converter, "tracer": lambda b: scenes.curves(b, SCENES),
-             "targets": targets, "crowds": crowds.crowds,
+             "targets": targets, "compressions": lambda b: reading.compressions(b, ffmpeg_way),
+             "startup": reading.startup, "crowds": crowds.crowds,
              "peers": lambda b: scenes.peers(b, SCENES)}
     chosen = options.only.split(",")
-    publishers = {"crowds": publish_crowds, "tracer": publish_tracer,
-                  ",".join(parts): publish}
+    publishers = {"crowds": publish_part("crowds", one_thread), "tracer": publish_tracer,
+                  "compressions": publish_part("compressions", with_load),
+                  "startup": publish_part("startup", with_load), ",".join(parts): publish}
     if options.publish and (options.small or options.only not in publishers):
-        parser.error("--publish is of a whole run, or of crowds or tracer alone: without --small")
+        parser.error("--publish is of a whole run, or of one of crowds, tracer, compressions and startup: "
+                     "without --small")
     unknown = [name for name in chosen if name not in parts]
     if unknown:
         parser.error(f"no part named {unknown[0]}: {', '.join(parts)}")
