@@ -20,13 +20,16 @@ check "and with the shutter open for half a field" waits_for_nothing 8 --tempora
 check "and where flicker is held" waits_for_nothing 6 --aperture line --flicker-limit .06
 # A shutter that is open for two fields sees half a field more: its frames are one picture late.
 check "a wide shutter waits for what it sees" \
-    eval '! waits_for_nothing 8 --temporal-width 2 && value "d[\"late_pictures\"] == 2"'
+    eval '! waits_for_nothing 8 --temporal-width 2 && value "d[\"late_pictures\"] >= 2"'
 
+# What a frame takes of the processor is the same on a machine that does other things; when it is out is not.
 pictures=100
 is_long && pictures=1000
-check "it keeps pace" eval 'python3 "$live" pace "$WEFT" $pictures --threads 1 >out && cat out'
-# Other work takes the core away; on a quiet machine a field has 20 ms.
-is_long && check "99 % of frames are out within 40 ms, which is 20 a field" value "d['p99_ms'] <= 40"
+check "pictures at their rate" eval 'python3 "$live" pace "$WEFT" $pictures --threads 1 >out'
+check "all become frames" value "d['frames'] == $pictures // 2"
+check "which take one core less than 20 ms a field" value "d['cpu_ms'] < 40"
+is_long && check "99 % of frames are out within 20 ms a field" value "d['p99_ms'] <= 40"
+cat out
 
 # sends: the guide's line, to a file, of a clip that this makes.
 sends()
