@@ -126,12 +126,15 @@ static weft_status begin_field(weft_fields *f, int64_t field, weft_error *err) {
     return WEFT_OK;
 }
 
+/* In floats: GCC 12 fails to compile it for aarch64 in doubles. */
 static void find_ends(const float *t, size_t count, double *low, double *high) {
-    *low = *high = (double)t[0];
+    float least = t[0], most = t[0];
     for (size_t i = 1; i < count; i++) {
-        *low = fmin(*low, (double)t[i]);
-        *high = fmax(*high, (double)t[i]);
+        least = fminf(least, t[i]);
+        most = fmaxf(most, t[i]);
     }
+    *low = (double)least;
+    *high = (double)most;
 }
 
 static bool all_finite(const weft_samples *s) {

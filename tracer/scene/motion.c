@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "filters/base/quad.h"
+
 #define PI 3.14159265358979323846
 
 /* ---- Affine maps ---- */
@@ -78,11 +80,10 @@ static double rational(wf_rational r) {
 /* Turns at the base, without the whole ones: 10^7 frames are a million turns, of which only the
  * last counts. */
 static double phase_of(const wf_op *op, wf_rational base_s) {
-    __extension__ typedef __float128 quad;
-    quad turns = (quad)op->turns_a_second_num / (quad)op->turns_a_second_den *
-                 (quad)base_s.num / (quad)base_s.den;
+    wf_quad turns = (wf_quad)op->turns_a_second_num / (wf_quad)op->turns_a_second_den *
+                    (wf_quad)base_s.num / (wf_quad)base_s.den;
     double whole = floor((double)turns);
-    quad rest = turns - (quad)whole; /* whole is exact below 2^53 */
+    wf_quad rest = turns - (wf_quad)whole; /* whole is exact below 2^53 */
     return (double)(rest < 0 ? rest + 1 : rest);
 }
 

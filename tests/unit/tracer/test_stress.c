@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "filters/base/quad.h"
 #include "tests/unit/support/scene_fields.h"
 #include "tests/unit/support/sizes.h"
 #include "tracer/rays/solid.h"
@@ -19,7 +20,7 @@
 #define ORTHO  "camera{eye={0, 0, 100}, look_at={0, 0, 0}, ortho_height=raster.lines}\n"
 #define WHITE  ":material{unlit=true, color=1}"
 
-__extension__ typedef __float128 quad;
+typedef wf_quad quad;
 
 static uint32_t draw(uint32_t *state) {
     *state = *state * 1664525u + 1013904223u;
