@@ -18,6 +18,7 @@ make_files()
     ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=180x122:r=240:d=0.2 shot.%04d.png
     cp shot/shot.00[0-3]?.exr .
     oiiotool shot/shot.0042.exr --resize 1920x1080 -o DIR/shot.0042.exr
+    cp examples/scenes/carousel.lua .
     ln -s out/subframes shots
     ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=640x360:r=50:d=1 -f lavfi -i sine=sample_rate=48000:d=1 -c:v mpeg4 capture.mp4
     ln -s capture.mp4 IN
