@@ -6,40 +6,57 @@
 #include "filters/base/isa_file.h"
 #include "filters/seen/seen_ops.h"
 
-enum { BLOCK = 32 }; /* samples whose sums stay in registers */
+enum { BLOCK = 32, EIGHTS = BLOCK / 8 }; /* samples whose sums stay in registers */
 
-static inline void down_block(float *restrict out, const float *const *row, size_t x,
-                              const float *weight, size_t rows, size_t count) {
-    float sum[BLOCK] = {0};
+/* Said by type, for a compiler that takes two rows at once sums them without vectors. */
+typedef float eight __attribute__((vector_size(32), aligned(4), may_alias));
+
+static inline void down_eights(float *restrict out, const float *const *row, size_t x,
+                               const float *weight, size_t rows, size_t count) {
+    eight sum[EIGHTS] = {{0}};
     for (size_t k = 0; k < rows; k++)
-        for (size_t i = 0; i < count; i++) sum[i] += weight[k] * row[k][x + i];
-    for (size_t i = 0; i < count; i++) out[i] = sum[i];
+        for (size_t i = 0; i < count; i++)
+            sum[i] += weight[k] * *(const eight *)(row[k] + x + 8 * i);
+    memcpy(out, sum, count * sizeof *sum);
 }
 
 static void down(float *restrict out, const float *const *row, size_t x, const float *weight,
                  size_t rows, size_t count) {
     size_t i = 0;
-    for (; i + BLOCK <= count; i += BLOCK) down_block(out + i, row, x + i, weight, rows, BLOCK);
-    down_block(out + i, row, x + i, weight, rows, count - i);
+    for (; i + BLOCK <= count; i += BLOCK)
+        down_eights(out + i, row, x + i, weight, rows, EIGHTS);
+    for (; i + 8 <= count; i += 8) down_eights(out + i, row, x + i, weight, rows, 1);
+    for (; i < count; i++) {
+        float sum = 0;
+        for (size_t k = 0; k < rows; k++) sum += weight[k] * row[k][x + i];
+        out[i] = sum;
+    }
 }
 
-static inline void across_block(float *restrict out, const float *restrict in,
-                                const float *weight, size_t reach, size_t count) {
-    float sum[BLOCK];
-    for (size_t i = 0; i < count; i++) sum[i] = weight[0] * in[i];
+static inline void across_eights(float *restrict out, const float *restrict in,
+                                 const float *weight, size_t reach, size_t count) {
+    eight sum[EIGHTS];
+    for (size_t i = 0; i < count; i++) sum[i] = weight[0] * *(const eight *)(in + 8 * i);
     for (size_t k = 1; k <= reach; k++)
         for (size_t i = 0; i < count; i++) {
-            const float *at = in + i;
-            sum[i] += weight[k] * (*(at - k) + at[k]);
+            const float *at = in + 8 * i;
+            sum[i] += weight[k] * (*(const eight *)(at - k) + *(const eight *)(at + k));
         }
-    for (size_t i = 0; i < count; i++) out[i] = sum[i];
+    memcpy(out, sum, count * sizeof *sum);
 }
 
 static void across(float *restrict out, const float *restrict in, const float *weight,
                    size_t reach, size_t count) {
     size_t x = 0;
-    for (; x + BLOCK <= count; x += BLOCK) across_block(out + x, in + x, weight, reach, BLOCK);
-    across_block(out + x, in + x, weight, reach, count - x);
+    for (; x + BLOCK <= count; x += BLOCK)
+        across_eights(out + x, in + x, weight, reach, EIGHTS);
+    for (; x + 8 <= count; x += 8) across_eights(out + x, in + x, weight, reach, 1);
+    for (; x < count; x++) {
+        const float *at = in + x;
+        float sum = weight[0] * at[0];
+        for (size_t k = 1; k <= reach; k++) sum += weight[k] * (*(at - k) + at[k]);
+        out[x] = sum;
+    }
 }
 
 static inline void stretch_by(float *restrict out, const float *restrict in, size_t step,
