@@ -8,7 +8,7 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 wants_root
 native=${WEFT_BUILD:-$source_dir/build}/weft
 jobs=${AARCH64_JOBS:-$(nproc)}
-libraries=(libopenexr-dev libdeflate-dev libxxhash-dev liblua5.4-dev libjansson-dev libcmocka-dev libcairo2-dev)
+libraries=(libopenexr-dev libdeflate-dev libxxhash-dev liblua5.4-dev libjansson-dev libcmocka-dev libcairo2-dev libgomp1)
 make_root "${AARCH64_ROOT:-}" --architectures=amd64,arm64 --include="$(IFS=,; echo \
     "gcc-aarch64-linux-gnu,g++-aarch64-linux-gnu,cmake,ninja-build,pkg-config,qemu-user-static,${libraries[*]/%/:arm64}")"
 put_source
