@@ -14,6 +14,10 @@
 #include "convert/check/measure.h"
 #include "convert/page/parts.h"
 
+#define PAGE_ITSELF_BYTES                                                                      \
+    ((size_t)1 << 20) /* more than all of it but packed fields and maps                        \
+                       */
+
 /* What is done with a clip, one after the other. */
 typedef enum stage { MAKE, MEASURE, PACK, STAGES } stage;
 
@@ -27,7 +31,7 @@ typedef struct making {
     double took_s[STAGES]; /* of the first clip, or what is usual */
     int64_t frames;        /* of a clip, as far as it is known */
     double done;           /* frames, as was told */
-    size_t packed_bytes;   /* of clips before the one in hand */
+    size_t packed_bytes;   /* of clips before the one in hand, and of maps */
 } making;
 
 static const wf_page_request *request_of(const making *m) {
@@ -181,20 +185,48 @@ static size_t as_text(size_t bytes) {
     return (bytes + 2) / 3 * 4;
 }
 
-static weft_status check_size(const making *m, const wf_page_packed *clip, weft_error *err) {
-    size_t most = request_of(m)->max_bytes, bytes, spare = (size_t)1 << 20;
-    wf_packer_data(clip->fields, &bytes);
-    size_t all = as_text(m->packed_bytes + bytes) + spare;
-    if (all <= most) return WEFT_OK;
-    /* As many frames as there is room for, if all are like those so far. */
+/* Whether so much more than what is packed is more than a page may be; *all is then its size.
+ */
+static bool is_too_large(const making *m, size_t bytes, size_t *all) {
+    *all = as_text(m->packed_bytes + bytes) + PAGE_ITSELF_BYTES;
+    return *all > request_of(m)->max_bytes;
+}
+
+/* As many frames as there is room for, beside heat maps of a byte a pixel, if all are like
+ * those so far. */
+static double fitting_frames(const making *m, const wf_page_packed *clip, size_t all) {
+    double heat = (double)as_text((size_t)clip->info.width_px * (size_t)clip->info.lines);
+    double room =
+        (double)request_of(m)->max_bytes - PAGE_ITSELF_BYTES - (double)m->page.clips * heat;
     double frames = (double)m->clip * (double)m->frames + (double)clip->frames;
-    double fits = 0.95 * frames * ((double)most - (double)spare) / (double)(all - spare) /
-                  (double)m->page.clips;
+    return floor(0.95 * frames * room / (double)(all - PAGE_ITSELF_BYTES) /
+                 (double)m->page.clips);
+}
+
+static weft_status check_size(const making *m, const wf_page_packed *clip, weft_error *err) {
+    size_t bytes, all;
+    char fewer[64] = "";
+    wf_packer_data(clip->fields, &bytes);
+    if (!is_too_large(m, bytes, &all)) return WEFT_OK;
+    double fits = fitting_frames(m, clip, all);
+    if (fits >= 1) snprintf(fewer, sizeof fewer, "fewer frames, such as %.0f, or ", fits);
     return wf_fail(err, WEFT_FAILED,
                    "the page would be larger than %.0f MB (--max-size): %.300s has reached it "
-                   "at frame %" PRId64 "; show fewer, such as %.0f frames, or fewer clips, or "
-                   "allow more",
-                   (double)most / 1e6, clip->label, clip->frames, fmax(1, floor(fits)));
+                   "at frame %" PRId64 "; show %sfewer clips, or allow more",
+                   (double)request_of(m)->max_bytes / 1e6, clip->label, clip->frames, fewer);
+}
+
+/* Maps are packed last, since all are drawn by the strongest flicker of any. */
+static weft_status count_heat(making *m, const wf_page_packed *clip, weft_error *err) {
+    size_t bytes, all;
+    wf_packer_data(clip->heat, &bytes);
+    if (is_too_large(m, bytes, &all))
+        return wf_fail(err, WEFT_FAILED,
+                       "the page would be larger than %.0f MB (--max-size) with the map of "
+                       "where %.300s flickers; show fewer frames or clips, or allow more",
+                       (double)request_of(m)->max_bytes / 1e6, clip->label);
+    m->packed_bytes += bytes;
+    return WEFT_OK;
 }
 
 static weft_status pack_frame(making *m, wf_page_packed *clip, wf_page_shown *shown,
@@ -245,7 +277,7 @@ static weft_status pack(making *m, wf_page_packed *clip, weft_error *err) {
 }
 
 /* The heat map in 255 steps, as one field of all lines. */
-static weft_status pack_heat(const making *m, wf_page_packed *clip, weft_error *err) {
+static weft_status pack_heat(making *m, wf_page_packed *clip, weft_error *err) {
     const wf_pack_shape shape = {
         .planes = 1, .width_px = {clip->info.width_px}, .lines = clip->info.lines};
     size_t samples = (size_t)clip->info.width_px * (size_t)clip->info.lines;
@@ -257,15 +289,10 @@ static weft_status pack_heat(const making *m, wf_page_packed *clip, weft_error *
     weft_status status = wf_packer_new(&shape, &clip->heat, err);
     if (!status) status = wf_packer_add(clip->heat, (const uint16_t *const[]){steps}, err);
     free(steps);
-    return status;
+    return status ? status : count_heat(m, clip, err);
 }
 
 /* ---- Names ---- */
-
-static const char *file_name(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash && slash[1] ? slash + 1 : path;
-}
 
 static weft_status name_page(making *m, weft_error *err) {
     const wf_page_request *r = request_of(m);
@@ -275,7 +302,7 @@ static weft_status name_page(making *m, weft_error *err) {
         const wf_page_clip *from = &r->clip[i];
         wf_page_packed *clip = &m->page.clip[i];
         clip->path = from->path;
-        clip->label = strdup(from->label ? from->label : file_name(from->path));
+        clip->label = strdup(from->label ? from->label : wf_base_name(from->path));
         if (!clip->label) title.failed = true;
         if (!r->title) wf_text_add(&title, "%s%s", i ? ", " : "", clip->label);
     }

@@ -11,7 +11,8 @@
 #include "convert/page/png.h"
 #include "convert/page/shown.h"
 
-#define GAMMA 2.4f /* of the display, Rec. ITU-R BT.1886 */
+#define GAMMA       2.4f /* of the display, Rec. ITU-R BT.1886 */
+#define MOST_ASPECT 32   /* of a pixel, and the least is 1 / this */
 
 typedef struct picture {
     int width_px, lines;
@@ -20,6 +21,11 @@ typedef struct picture {
 
 static float *line_of(const picture *p, int y, int channel) {
     return p->rgb + (3 * (size_t)y + (size_t)channel) * (size_t)p->width_px;
+}
+
+/* It may be more than a size_t holds. */
+static double bytes_of(double width_px, int lines) {
+    return 3 * sizeof(float) * width_px * lines;
 }
 
 static weft_status new_picture(int width_px, int lines, picture *out, weft_error *err) {
@@ -97,6 +103,7 @@ static float middle_of(float a, float b, float c) {
 
 /* Between the lines of the field that owns lines `parity`, `parity` + 2, ... */
 static void deinterlace(const picture *p, int parity) {
+    if (p->lines < 2) return; /* there is nothing beside it */
     for (int y = 1 - parity; y < p->lines; y += 2)
         for (int c = 0; c < 3; c++) {
             const float *above = line_of(p, y ? y - 1 : y + 1, c);
@@ -129,11 +136,30 @@ static void stretch_line(const float *from, int width_px, float *to, int to_px) 
     }
 }
 
-static weft_status make_square(picture *p, double aspect, weft_error *err) {
+/* An aspect is whatever the file says. */
+static weft_status check_square(const picture *p, double aspect, const wf_preview_request *r,
+                                weft_error *err) {
+    double width_px = p->width_px * aspect;
+    if (!(aspect >= 1.0 / MOST_ASPECT && aspect <= MOST_ASPECT))
+        return wf_fail(err, WEFT_FAILED,
+                       "%.500s says that its pixels are %.3g times as wide as high, and a "
+                       "preview goes from 1/%d to %d; --raster says otherwise",
+                       r->video, aspect, MOST_ASPECT, MOST_ASPECT);
+    if (bytes_of(width_px, p->lines) <= (double)r->max_memory_bytes) return WEFT_OK;
+    return wf_fail(err, WEFT_FAILED,
+                   "%.500s: with square pixels it is a picture of %.0fx%d, which takes more "
+                   "memory than --max-memory allows",
+                   r->video, width_px, p->lines);
+}
+
+static weft_status make_square(picture *p, double aspect, const wf_preview_request *r,
+                               weft_error *err) {
     picture wide;
+    weft_status status = check_square(p, aspect, r, err);
+    if (status) return status;
     int width_px = (int)fmax(1, round(p->width_px * aspect));
     if (width_px == p->width_px) return WEFT_OK;
-    weft_status status = new_picture(width_px, p->lines, &wide, err);
+    status = new_picture(width_px, p->lines, &wide, err);
     if (status) return status;
     for (int y = 0; y < p->lines; y++)
         for (int c = 0; c < 3; c++)
@@ -213,7 +239,7 @@ weft_status wf_preview_write(const wf_preview_request *r, const char *path, weft
     if (!status) {
         const wf_raster *raster = &wf_video_info_of(video)->raster;
         if (raster->scan == WF_INTERLACED) deinterlace(&p, wf_raster_parity(raster, 0));
-        status = make_square(&p, wf_ratio_value(raster->pixel_aspect), err);
+        status = make_square(&p, wf_ratio_value(raster->pixel_aspect), r, err);
     }
     if (!status) status = write_picture(&p, r, path, err);
     if (video) wf_video_close(video);

@@ -67,7 +67,7 @@ static wf_page_form form_of(const wf_video_info *info, bool brought) {
     int chroma = ycbcr && across == 2 && even ? info->width_px / 2 : info->width_px;
     wf_page_form form = {.shape = {.planes = 3,
                                    .width_px = {info->width_px, chroma, chroma},
-                                   .lines = info->lines / 2},
+                                   .lines = (info->lines + 1) / 2}, /* of the upper field */
                          .ycbcr = ycbcr,
                          .rounded = info->bits > 8,
                          .brought = brought};
@@ -100,7 +100,7 @@ weft_status wf_page_shown_new(const wf_video_info *info, wf_page_shown **out, we
     if (!status) status = wf_signal_new(s->signals, &s->signal, err);
     if (!status && !make_room(s))
         status = wf_fail(err, WEFT_NO_MEMORY, "no memory for fields of %dx%d", info->width_px,
-                         info->lines / 2);
+                         s->form.shape.lines);
     if (status)
         wf_page_shown_free(s);
     else

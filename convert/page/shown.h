@@ -13,7 +13,8 @@ typedef struct wf_page_colors {
 
 /* How the fields of a video are shown. */
 typedef struct wf_page_form {
-    wf_pack_shape shape; /* of a field */
+    wf_pack_shape
+        shape; /* of a field; of an odd number of lines of the upper one, the larger */
     /* Planes are Y' Cb Cr, else R'G'B' as G, R - G, B - G. */
     bool ycbcr;
     wf_page_colors colors;

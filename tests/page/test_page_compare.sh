@@ -113,4 +113,25 @@ check "a preview that is there" fails "exists" weft convert in "${raster[@]}" -o
 check "nothing of these was written" test ! -e x.y4m -a ! -e x.png
 check "a frame that is not there" exits 2 weft page shot.y4m --preview x.png --preview-frame 2
 check "is told with what there is" says "it has 2"
+
+# Sizes and shapes that few files have: an odd number of lines, one line, pixels that are wide.
+noise() { python3 -B "$WEFT_SOURCE/tests/page/noise.py" "$@"; }
+for size in 17x15 16x1 1x7 3x2; do
+    for chroma in 444 422 mono; do
+        noise odd.y4m ${size%x*} ${size#*x} 2 It $chroma
+        check "a preview of $size $chroma" exits 0 weft page odd.y4m --preview odd.png --overwrite
+        check "is as large" preview odd.png "$size" True
+    done
+done
+check "a run of an odd number of lines" exits 0 weft convert in --subframe-rate 480 --chroma 444 \
+    --raster '17x15@30000/1001p' -q -o po.y4m --preview po.png
+check "has a preview" preview po.png 17x15 True
+for aspect in A999999999:1 A1:999999999 A40:1; do
+    sed "1s/A1:1/$aspect/" odd.y4m >wide.y4m
+    check "pixels of $aspect" fails "times as wide as high" weft page wide.y4m --preview wide.png
+done
+noise wide.y4m 640 480 1 It 422
+sed -i '1s/A1:1/A30:1/' wide.y4m
+check "a picture that memory does not hold" fails "max-memory" weft page wide.y4m --max-memory 50M --preview wide.png
+check "leaves nothing" test ! -e wide.png
 finish

@@ -89,8 +89,18 @@ check "are words" told '<h1>&lt;i&gt;&amp;&quot;</h1>' look.html
 check "in data too" told '\u003c/script>\u003cb>' look.html
 check "no name too many" refuses "--label" page a.y4m --label x --label y -o no.html
 noise large.y4m 320 240 4 It 422
-check "a page that is too large" fails "larger than 1 MB" weft page large.y4m large.y4m --max-size 1200000 -o no.html
-check "is told with what would do" says "show fewer, such as"
+check "a page that is too large" fails "larger than 2 MB" weft page large.y4m large.y4m --max-size 2000000 -o no.html
+check "is told with what would do" says "fewer frames, such as"
+noise tall.y4m 640 480 1 It 422
+check "one frame that is too large" fails "larger than 1 MB" weft page tall.y4m --max-size 1200000 -o no.html
+check "is not told to show one" bash -c '! grep -q "frames, such as" said'
+# Maps of where it flickers count: there is room for fields, and for half of the map.
+weft page large.y4m -q -o sized.html
+room=$(python3 -c 'import re, sys
+text = open("sized.html").read()
+fields, heat = (len(re.search(f"id=\"{kind}-0\">([^<]*)", text)[1]) for kind in ("fields", "heat"))
+print((1 << 20) + fields + heat // 2)')
+check "a page that its map makes too large" fails "flickers" weft page large.y4m --max-size "$room" -o no.html
 check "a name that is no page" refuses "a page is HTML" page a.y4m -o no.txt
 check "a page that is there" fails "exists" weft page a.y4m -o look.html
 check "no name" refuses "-o look.html" page a.y4m
