@@ -11,6 +11,9 @@
 #include "convert/base/names.h"
 #include "convert/job/job.h"
 
+/* So many different warnings of runs are remembered; further ones may come again. */
+#define MOST_WARNINGS 64
+
 typedef struct comparing {
     weft_job *job;
     weft_job asked; /* a copy, for what each run begins with; it owns nothing */
@@ -24,6 +27,8 @@ typedef struct comparing {
     weft_status worst; /* WEFT_OK or WEFT_DEGRADED */
     wf_page_step_fn *step;
     void *step_user;
+    char *warned[MOST_WARNINGS]; /* what was warned of */
+    size_t warnings;
 } comparing;
 
 /* ---- The list ---- */
@@ -122,6 +127,20 @@ static void on_progress(const weft_progress *progress, void *user) {
     c->step(part, progress->frames_total, c->step_user);
 }
 
+/* All runs read the same input: what one has warned of the next does not say again. */
+static void warn_once(const char *text, void *user) {
+    comparing *c = user;
+    for (size_t i = 0; i < c->warnings; i++)
+        if (!strcmp(c->warned[i], text)) return;
+    if (c->warnings < MOST_WARNINGS && (c->warned[c->warnings] = strdup(text))) c->warnings++;
+    if (c->asked.warning) c->asked.warning(text, c->asked.warning_user);
+}
+
+static void forget_warnings(comparing *c) {
+    while (c->warnings) free(c->warned[--c->warnings]);
+    weft_job_on_warning(c->job, c->asked.warning, c->asked.warning_user);
+}
+
 /* Names the video in the folder. */
 static char *video_name(const comparing *c) {
     char *name = NULL;
@@ -218,6 +237,7 @@ weft_status wf_page_compare(weft_job *job, const char *list, const wf_page_reque
     comparing c = {.job = job, .asked = *job, .request = request, .fd = -1};
     weft_status status = check_job(job, err);
     if (status) return status;
+    weft_job_on_warning(job, warn_once, &c);
     char *output = strdup(job->output);
     c.text = strdup(list);
     if (!output || !c.text) status = wf_fail(err, WEFT_NO_MEMORY, "out of memory");
@@ -225,6 +245,7 @@ weft_status wf_page_compare(weft_job *job, const char *list, const wf_page_reque
     if (!status) status = check_entries(&c, err);
     if (!status) status = make_page(&c, output, err);
     close_clip(&c);
+    forget_warnings(&c);
     weft_job_on_progress(job, c.asked.progress, c.asked.progress_user);
     free(c.text);
     free(output);

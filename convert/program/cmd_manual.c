@@ -199,7 +199,9 @@ static const entry files[] = {
                "output and command; paths are relative to the file's folder."},
     {"share/weft/weft.ocio", "The color spaces that weft knows, as an OpenColorIO "
                              "configuration; it is compiled in as well."},
-    {"share/doc/weft/examples", "Scenes, a generator of subframes, a Blender script."},
+    {"share/doc/weft/examples",
+     "Guides, scenes and their language (scenes/README.md), and what goes "
+     "with renderers, farms and programs of one's own."},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))

@@ -9,9 +9,9 @@ const wf_cmd wf_cmd_render = {
     .text =
         "Traces a scene where the apertures of its fields are, in space and in time, and "
         "writes\n"
-        "video; nothing dense is stored. Scenes are Lua: examples/scenes/README.md tells how "
-        "to\n"
-        "write one.\n"
+        "video; nothing dense is stored. Scenes are Lua: examples/scenes/README.md (of a "
+        "package\n"
+        "below /usr/share/doc/weft) tells how to write one.\n"
         "\n"
         "  weft render carousel.lua -o carousel.y4m\n"
         "\n"

@@ -34,7 +34,9 @@ static void help(FILE *to) {
     fputs("\nA first conversion, of a render with eight pictures to a field, to 525-line "
           "video:\n\n"
           "  weft convert shot.####.exr --subframe-rate 480000/1001 -o shot.y4m\n\n"
-          "and a first render, of a scene that comes along:\n\n"
+          "and a first render, of a scene that comes along (of an installed weft, examples/ is "
+          "in\n"
+          "share/doc/weft below its prefix: of a package /usr/share/doc/weft/examples):\n\n"
           "  weft render examples/scenes/carousel.lua --frames 0-9 -o carousel.y4m\n\n"
           "'weft COMMAND --help' says what a command takes; 'weft --version' which weft this "
           "is.\n",

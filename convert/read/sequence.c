@@ -34,9 +34,10 @@ static wf_candidates candidates_of(const wf_numbered_list *list, const char *dir
     return (wf_candidates){list->entry, list->count, directory, input, WF_RANGE_MOST};
 }
 
-/* What a directory holds, for a message: "; the directory holds beauty.####.exr 1-48". */
+/* What stands where an input was looked for, for a message: "; beside it there are
+ * beauty.####.exr 1-48". */
 static void tell_what_is_there(const wf_names *names, char *text, size_t size) {
-    static const char before[] = "; the directory holds ";
+    static const char before[] = "; beside it there are ";
     wf_numbered_list groups;
     *text = '\0';
     if (wf_names_group(names, 0, &groups, NULL)) return;
@@ -44,7 +45,7 @@ static void tell_what_is_there(const wf_names *names, char *text, size_t size) {
     if (groups.count)
         wf_groups_text(&groups, text + sizeof before - 1, size - sizeof before);
     else
-        snprintf(text, size, "; the directory holds no numbered pictures");
+        snprintf(text, size, "; beside it there are no numbered pictures");
     free(groups.entry);
 }
 

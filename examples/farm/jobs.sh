@@ -13,6 +13,7 @@ die() { echo "jobs.sh: $1" >&2; exit "$2"; }
 export WEFT=${WEFT:-weft}
 how=$1 command=$2 list=$3
 shift 3
+[ -r "$list" ] || die "$list: no such file can be read; give the list of jobs" 2
 count=$(python3 -c '
 import json, sys
 jobs = json.load(open(sys.argv[1], encoding="utf-8-sig"))
@@ -25,7 +26,7 @@ slurm)
         "$farm/slurm_task.sh" "$farm/one_job.sh" "$command" --job "$list" "$@" ;;
 parallel)
     seq "$count" | parallel --quote --line-buffer --tagstring "job {}" --env WEFT \
-        "$farm/one_job.sh" {} "$command" --job "$list" "$@" || die "jobs failed; run this again with --resume" 1 ;;
+        "$farm/one_job.sh" {} "$command" --job "$list" "$@" || die "jobs failed, as told above; mend that and run this again with --resume" 1 ;;
 here)
     exec "$WEFT" "$command" --job "$list" "$@" ;;
 *)

@@ -15,5 +15,5 @@ export WEFT=${WEFT:-weft} WEFT_THREADS=${WEFT_THREADS:-1}
 
 mapfile -t numbers < <(seq "$1")
 parallel --quote --retries 3 --line-buffer --tagstring "part {}" --env WEFT --env WEFT_THREADS \
-    "$farm/chunk.sh" {} "$@" ::: "${numbers[@]}" || die "parts failed; run this again" 1
+    "$farm/chunk.sh" {} "$@" ::: "${numbers[@]}" || die "parts failed, as told above; mend that and run this again" 1
 "$farm/join.sh" "$@"

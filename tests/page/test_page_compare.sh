@@ -39,6 +39,9 @@ echo "{\"inputs\": [\"in\"], \"subframe-rate\": 480, \"raster\": \"90x64@30i,tff
 check "a job file may ask for it" exits 0 weft convert --job job.json -q
 check "beside the file" test -s job.html
 
+check "what all entries are warned of" exits 0 weft convert in --raster '48x64@30i,tff' --subframe-rate 480 --compare box,shaped,line -o warned.html
+check "is said once" same "$(grep -c 'it will be stretched' said)" 1
+
 no=("${raster[@]}" -o no.html)
 check "an aperture that is none" refuses "shapd" convert in "${no[@]}" --compare box,shapd
 check "what is held and is none" refuses "+limit=E" convert in "${no[@]}" --compare box+much=3

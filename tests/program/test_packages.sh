@@ -85,6 +85,21 @@ check "so does Debian's" same "$(sed -n '1s/.*(\(.*\)).*/\1/p' "$WEFT_SOURCE/con
 # ---- Unpacked they work ----
 
 for package in "${packages[@]}"; do dpkg-deb -x "$package"_*.deb root; done
+
+# dead_links PAGE..: links to files that the packages do not have.
+dead_links()
+{
+    local page link
+    for page; do
+        while read -r link; do
+            [ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
+        done < <(grep -oE '\]\([^)#:]+' "$page" | cut -c3-)
+    done
+}
+doc=root/usr/share/doc/weft
+mapfile -t pages < <(find $doc/README.md $doc/examples/{guides,tutorial,farm,scenes} -name '*.md')
+check "pages to read" test ${#pages[@]} -ge 12
+check "lead to what is there" same "$(dead_links "${pages[@]}")" ""
 check "the program" exits 0 root/usr/bin/weft --version
 check "tells its version" prints "weft $version"
 if has_module plot; then

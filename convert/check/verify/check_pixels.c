@@ -27,7 +27,8 @@ wf_verdict wf_check_levels(const wf_subject *s, wf_finding *f) {
     char is[64];
     snprintf(is, sizeof is, "%.3g %% of the picture is outside EBU R 103",
              100 * s->figures.r103_share);
-    return wf_say(f, s->figures.r103_share <= WF_R103_SHARE, is, "at most 1 %");
+    return wf_say(f, s->figures.r103_share <= WF_R103_SHARE, is,
+                  "at most 1 %, which --legalize r103 of convert makes");
 }
 
 /* Codecs that lose something overshoot, and what receives them clips. */

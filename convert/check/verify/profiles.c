@@ -1,10 +1,12 @@
 /* The table of delivery profiles. */
 #include "convert/check/verify/profiles.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
 #include "filters/base/spelling.h"
+#include "filters/raster/raster.h"
 
 #define MXF(codec_) .container = "mxf", .codec = codec_, .timecode = true
 #define MOV(codec_) .container = "mov", .codec = codec_, .timecode = true
@@ -123,16 +125,39 @@ const wf_delivery_profile *wf_profile_at(size_t index) {
     return index < PROFILES ? &profiles[index] : NULL;
 }
 
+/* The profiles whose names begin so, with commas: "" where there are none. */
+static void tell_family(const char *name, char *text, size_t size) {
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < PROFILES && *name; i++)
+        if (!strncmp(profiles[i].name, name, strlen(name)) && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     profiles[i].name);
+}
+
+/* A raster's name is taken for what --raster holds a file to. */
+static void refuse_profile(const char *name, const char *near, weft_error *err) {
+    wf_raster raster;
+    char why[256], family[512];
+    tell_family(name, family, sizeof family);
+    if (wf_raster_parse(name, &raster, why, sizeof why))
+        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is a raster; give --raster %.200s", name,
+                name);
+    else if (*family)
+        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is unknown; there are %s", name, family);
+    else if (near)
+        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is unknown; did you mean %s?", name,
+                near);
+    else
+        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is unknown; --profiles lists them", name);
+}
+
 const wf_delivery_profile *wf_profile_find(const char *name, weft_error *err) {
     wf_spelling spelling = {.text = name};
     for (size_t i = 0; i < PROFILES; i++) {
         if (!strcmp(profiles[i].name, name)) return &profiles[i];
         wf_spelling_offer(&spelling, profiles[i].name);
     }
-    if (spelling.best)
-        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is unknown; did you mean %s?", name,
-                spelling.best);
-    else
-        wf_fail(err, WEFT_USAGE, "--profile: '%.200s' is unknown; --profiles lists them", name);
+    refuse_profile(name, spelling.best, err);
     return NULL;
 }

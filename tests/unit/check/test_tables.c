@@ -56,6 +56,12 @@ static void misspelled_profiles(void **state) {
     weft_error err = {""};
     assert_null(wf_profile_find("imx50-652", &err));
     assert_non_null(strstr(err.text, "did you mean imx50-625?"));
+    assert_null(wf_profile_find("525i", &err));
+    assert_non_null(strstr(err.text, "'525i' is a raster; give --raster 525i"));
+    assert_null(wf_profile_find("imx", &err));
+    assert_non_null(strstr(err.text, "there are imx50-625, imx50-525"));
+    assert_null(wf_profile_find("", &err));
+    assert_non_null(strstr(err.text, "--profiles lists them"));
     assert_null(wf_profile_find("betamax", &err));
     assert_non_null(strstr(err.text, "--profiles lists them"));
 }
