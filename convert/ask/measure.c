@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "convert/ask/asking.h"
 #include "convert/ask/draw.h"
 #include "convert/ask/measure_limit.h"
+#include "convert/base/names.h"
 #include "convert/base/outfile.h"
 #include "convert/check/heat.h"
 #include "convert/plot/plot.h"
@@ -73,11 +73,6 @@ static weft_status read_limits(asking *a, weft_error *err) {
     return status;
 }
 
-static bool same_file(const char *a, const char *b) {
-    struct stat x, y;
-    return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
 /* Refuses names that would be two things at once, such as a heat map that replaces its input.
  */
 static weft_status check_names(const weft_job *job, const weft_measure *asked,
@@ -91,8 +86,8 @@ static weft_status check_names(const weft_job *job, const weft_measure *asked,
     if (streams > 1)
         return wf_fail(err, WEFT_USAGE,
                        "standard input can be read once, and - is given twice");
-    bool own = heatmap &&
-               (same_file(heatmap, job->inputs[0]) || (against && same_file(heatmap, against)));
+    bool own = heatmap && (wf_name_replaces(heatmap, job->inputs[0]) ||
+                           (against && wf_name_replaces(heatmap, against)));
     if (!own) return heatmap ? wf_outfile_check(heatmap, true, err) : WEFT_OK;
     return wf_fail(err, WEFT_USAGE,
                    "--heatmap %.300s would replace what is measured; give it another name",

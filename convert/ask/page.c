@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "convert/ask/asking.h"
+#include "convert/base/names.h"
 #include "convert/base/range.h"
 #include "convert/base/values.h"
 #include "convert/page/page.h"
@@ -90,23 +91,43 @@ static weft_status read_asked(asking *a, weft_error *err) {
     return status ? status : read_size(a->asked.max_size, &a->request.max_bytes, err);
 }
 
-static weft_status preview(const asking *a, weft_error *err) {
-    wf_preview_request preview = {.video = a->job->inputs[0],
-                                  .raster = a->request.raster,
-                                  .frame = -1,
-                                  .max_memory_bytes = a->request.max_memory_bytes,
-                                  .overwrite = a->request.overwrite};
-    weft_status status = wf_preview_read_frame(a->asked.preview_frame, &preview.frame, err);
-    return status ? status : wf_preview_write(&preview, a->asked.preview, err);
+/* Nothing is replaced that is looked at, and all that is to be written can be. */
+static weft_status check_names(const asking *a, weft_error *err) {
+    const weft_job *job = a->job;
+    const char *written[] = {job->output, a->asked.preview};
+    for (size_t i = 0; i < job->input_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (written[k] && wf_name_replaces(written[k], job->inputs[i]))
+                return wf_fail(err, WEFT_USAGE,
+                               "%.300s would replace what is shown; give it another name",
+                               written[k]);
+    weft_status status = WEFT_OK;
+    if (a->asked.preview) status = wf_preview_check_name(a->asked.preview, job->overwrite, err);
+    if (!status && job->output) status = wf_page_check_name(job->output, job->overwrite, err);
+    return status;
+}
+
+static weft_status read_preview(const asking *a, wf_preview_request *preview, weft_error *err) {
+    *preview = (wf_preview_request){.video = a->job->inputs[0],
+                                    .raster = a->request.raster,
+                                    .frame = -1,
+                                    .max_memory_bytes = a->request.max_memory_bytes,
+                                    .overwrite = a->request.overwrite,
+                                    .cancelled = a->request.cancelled};
+    return wf_preview_read_frame(a->asked.preview_frame, a->asked.preview, &preview->frame,
+                                 err);
 }
 
 weft_status weft_job_page(weft_job *job, const weft_page *asked, weft_error *err) {
+    wf_preview_request preview;
     asking *a = calloc(1, sizeof *a);
     if (!a) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     a->job = job;
     weft_status status = wf_asked(asked, "weft_page", &a->asked, sizeof a->asked, err);
     if (!status) status = read_asked(a, err);
-    if (!status && a->asked.preview) status = preview(a, err);
+    if (!status) status = read_preview(a, &preview, err);
+    if (!status) status = check_names(a, err);
+    if (!status && a->asked.preview) status = wf_preview_write(&preview, a->asked.preview, err);
     if (!status && job->output) status = wf_page_make(&a->request, job->output, err);
     free(a->labels);
     free(a);

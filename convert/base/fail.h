@@ -8,4 +8,7 @@
 weft_status wf_fail(weft_error *err, weft_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Has the message (if err is not NULL) call what it calls `from` by another name, once. */
+void wf_error_rename(weft_error *err, const char *from, const char *to);
+
 #endif

@@ -230,3 +230,34 @@ bool wf_name_ends_in(const char *name, const char *ending) {
     const char *dot = strrchr(name, '.');
     return dot && !strcasecmp(dot, ending);
 }
+
+static bool are_one_file(const char *a, const char *b) {
+    struct stat x, y;
+    return !stat(a, &x) && !stat(b, &y) && S_ISREG(x.st_mode) && x.st_dev == y.st_dev &&
+           x.st_ino == y.st_ino;
+}
+
+/* The folder that a path's last name is in; NULL: there is none. free(). */
+static char *folder_of(const char *path) {
+    const char *name = wf_base_name(path);
+    char *folder = name > path ? strndup(path, (size_t)(name - path)) : strdup(".");
+    char *real = folder ? realpath(folder, NULL) : NULL;
+    free(folder);
+    return real;
+}
+
+bool wf_name_replaces(const char *path, const char *other) {
+    char why[256];
+    wf_pattern pattern;
+    wf_rational number;
+    const char *name = wf_base_name(path);
+    if (are_one_file(path, other)) return true;
+    bool numbered = wf_pattern_parse(other, &pattern, why, sizeof why) == WF_PATTERN_OK &&
+                    wf_pattern_match(&pattern, name, &number);
+    if (!numbered && strcmp(name, wf_base_name(other)) != 0) return false;
+    char *mine = folder_of(path), *its = folder_of(other);
+    bool same = mine && its && !strcmp(mine, its);
+    free(mine);
+    free(its);
+    return same;
+}

@@ -46,6 +46,11 @@ bool wf_name_is_picture(const char *name);
 /* Whether what follows its last dot is ending (".dpx"), in either case. */
 bool wf_name_ends_in(const char *name, const char *ending);
 
+/* Whether a file that is written at path would take the place of another: both are one file, or
+ * will have one name, or the other is a sequence ("shot.####.png") that has a file so called.
+ */
+bool wf_name_replaces(const char *path, const char *other);
+
 /* Reads the number of one name; false if it has none. */
 bool wf_name_number_of(const char *name, int way, wf_numbered *out);
 

@@ -125,6 +125,7 @@ static weft_status begin_screen(measuring *m, weft_error *err) {
 
 static weft_status begin(measuring *m, weft_error *err) {
     const wf_video_options options = {.raster = m->options->raster,
+                                      .transfer = m->options->transfer,
                                       .max_memory_bytes = m->options->max_memory_bytes};
     weft_status status = wf_video_open(m->path, &options, &m->video, err);
     if (status) return status;

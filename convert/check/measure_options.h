@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "color/codes/display.h"
 #include "convert/finish/crew.h"
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
@@ -32,8 +33,9 @@ typedef enum wf_chart {
 } wf_chart;
 
 typedef struct wf_measure_options {
-    const wf_raster *raster; /* NULL: as the file says */
-    const char *against;     /* the reference of `difference`; NULL: none */
+    const wf_raster *raster;     /* NULL: as the file says */
+    const wf_transfer *transfer; /* of the display it is made for; NULL: as the file says */
+    const char *against;         /* the reference of `difference`; NULL: none */
     wf_display_kind display;
     wf_chart chart;
     double grating;      /* cycles a frame line */

@@ -43,6 +43,15 @@ wf_matrix wf_color_matrix_of(const char *space, wf_matrix of_raster) {
     return space && !strncmp(space, "rec2100-", 8) ? WF_2020 : of_raster;
 }
 
+wf_transfer wf_color_transfer_of(const char *space) {
+    enum { PQ = 16, HLG = 18 }; /* of Rec. ITU-T H.273 */
+    size_t row = find_tags(space);
+    int transfer = row < TAGGED ? tagged[row].transfer : 0;
+    return transfer == PQ    ? WF_TRANSFER_PQ
+           : transfer == HLG ? WF_TRANSFER_HLG
+                             : WF_TRANSFER_BT1886;
+}
+
 /* Both systems of Rec. BT.601 have one matrix, whose code point is 6 in QuickTime. */
 wf_color_tags wf_color_tags_of(const char *space, wf_matrix matrix) {
     static const int matrices[] = {

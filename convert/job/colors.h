@@ -1,6 +1,7 @@
 #ifndef WF_CONVERT_JOB_COLORS_H
 #define WF_CONVERT_JOB_COLORS_H
 
+#include "color/codes/display.h"
 #include "color/line/luma.h"
 #include "color/space/space.h"
 #include "filters/raster/raster.h"
@@ -25,6 +26,9 @@ bool wf_color_has_tags(const char *space);
 /* The Y'CbCr of codes that are in a space: Rec. ITU-R BT.2100 has that of BT.2020, whatever the
  * raster; in any other space codes have the raster's. */
 wf_matrix wf_color_matrix_of(const char *space, wf_matrix of_raster);
+
+/* The display that codes in a space are made for. */
+wf_transfer wf_color_transfer_of(const char *space);
 
 /* The tags of codes that are in a space of color/weft.ocio, with their Y'CbCr. For a
  * space that has no code points they are the raster's own. */

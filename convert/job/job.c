@@ -1,4 +1,5 @@
 /* A job: what it holds besides its options, and which options contradict each other. */
+#include "convert/job/colors.h"
 #include "convert/job/job.h"
 
 #include <stdarg.h>
@@ -131,6 +132,12 @@ void wf_job_settle(weft_job *job) {
     job->raster.pulldown = job->cadence == WF_CADENCE_2_3;
     job->raster.all_lines = wf_job_holds_flicker(job);
     job->raster.whole_frames = false;
+}
+
+wf_raster wf_job_raster_shown(const weft_job *job) {
+    wf_raster raster = job->raster;
+    raster.matrix = wf_color_matrix_of(job->to, raster.matrix);
+    return raster;
 }
 
 typedef struct rule {

@@ -139,4 +139,8 @@ weft_status wf_job_check_flicker(const weft_job *job, weft_error *err);
  * fields all lines where flicker is held. */
 void wf_job_settle(weft_job *job);
 
+/* What to read the job's video as, asked before a run settles the raster: codes in some spaces
+ * have a Y'CbCr of their own. */
+wf_raster wf_job_raster_shown(const weft_job *job);
+
 #endif

@@ -11,12 +11,13 @@
 /* Finished video as it is read, and what each kind of file has to do for it. */
 
 typedef struct wf_video_options {
-    const wf_raster *raster; /* what it is, as the user says; NULL: as the file says */
-    size_t max_memory_bytes; /* of one picture */
-    bool want_times;         /* of all pictures: info.times is filled where there are any */
-    bool codes_only;         /* wf_video_next is not called */
-    bool progressive_only;   /* a later frame that says that it is interlaced is an error */
-    bool want_alpha;         /* as a fourth plane of codes, where there is some */
+    const wf_raster *raster;     /* what it is, as the user says; NULL: as the file says */
+    const wf_transfer *transfer; /* of the display it is made for; NULL: as the file says */
+    size_t max_memory_bytes;     /* of one picture */
+    bool want_times;             /* of all pictures: info.times is filled where there are any */
+    bool codes_only;             /* wf_video_next is not called */
+    bool progressive_only;       /* a later frame that says that it is interlaced is an error */
+    bool want_alpha;             /* as a fourth plane of codes, where there is some */
     bool mends; /* pictures that cannot be decoded are given as missing, instead of an error */
 } wf_video_options;
 

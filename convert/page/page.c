@@ -94,6 +94,7 @@ static weft_status check_cancelled(const making *m, weft_error *err) {
 static weft_status open_clip(const making *m, const char *path, wf_video **video,
                              weft_error *err) {
     const wf_video_options options = {.raster = request_of(m)->raster,
+                                      .transfer = request_of(m)->transfer,
                                       .max_memory_bytes = request_of(m)->max_memory_bytes};
     if (!strcmp(path, "-"))
         return wf_fail(
@@ -165,6 +166,7 @@ static weft_status look_at(making *m, size_t i, weft_error *err) {
 static weft_status measure(making *m, wf_page_packed *clip, weft_error *err) {
     const wf_page_request *r = request_of(m);
     const wf_measure_options options = {.raster = r->raster,
+                                        .transfer = r->transfer,
                                         .want_heat = true,
                                         .first_frame = r->first,
                                         .frame_count = r->count,
@@ -343,6 +345,8 @@ static weft_status take_clip(making *m, weft_error *err) {
     if (!status) status = measure(m, clip, err);
     if (!status) status = pack(m, clip, err);
     if (!m->clip || clip->frames < page->frames) page->frames = clip->frames;
+    if (status && request_of(m)->make_clip && clip->path)
+        wf_error_rename(err, clip->path, clip->label);
     return status;
 }
 
@@ -376,11 +380,8 @@ static weft_status check_ending(const char *path, weft_error *err) {
 }
 
 weft_status wf_page_check_name(const char *path, bool overwrite, weft_error *err) {
-    wf_outfile *file;
     weft_status status = check_ending(path, err);
-    if (!status) status = wf_outfile_open(path, overwrite, &file, err);
-    if (!status) wf_outfile_abandon(file);
-    return status;
+    return status ? status : wf_outfile_check(path, overwrite, err);
 }
 
 /* Opened when all else is done, so that nothing is there that could stay unfinished. */

@@ -4,6 +4,7 @@
 
 #include <signal.h>
 
+#include "color/codes/display.h"
 #include "convert/weft.h"
 #include "filters/raster/raster.h"
 
@@ -20,20 +21,22 @@ typedef struct wf_page_clip {
 /* How far a clip is that is made for the page: a part from 0 to 1, and its frames. */
 typedef void wf_page_step_fn(double part, int64_t frames, void *user);
 
-/* Makes clip `number` when its turn has come, and says where it is until the next is made. */
+/* Makes clip `number` when its turn has come, and says where it is until the next is made.
+ * People know it by its label, which errors call it. */
 typedef weft_status wf_page_make_fn(void *user, size_t number, wf_page_step_fn *step,
                                     void *step_user, const char **path, weft_error *err);
 
 typedef struct wf_page_request {
     const wf_page_clip *clip;
-    size_t clips;               /* 1 to WF_PAGE_MOST_CLIPS; all of one size and rate */
-    const char *title;          /* NULL: made of the labels */
-    const wf_raster *raster;    /* what they are; NULL: as they say */
-    int64_t first, count;       /* frames to show and to measure; count 0: all from first on */
-    size_t max_bytes;           /* of the page */
-    size_t max_memory_bytes;    /* of a picture in hand */
-    bool overwrite;             /* a page that is there */
-    wf_page_make_fn *make_clip; /* NULL: clips are there, and all are looked at first */
+    size_t clips;                /* 1 to WF_PAGE_MOST_CLIPS; all of one size and rate */
+    const char *title;           /* NULL: made of the labels */
+    const wf_raster *raster;     /* what they are; NULL: as they say */
+    const wf_transfer *transfer; /* of the display they are made for; NULL: as they say */
+    int64_t first, count;        /* frames to show and to measure; count 0: all from first on */
+    size_t max_bytes;            /* of the page */
+    size_t max_memory_bytes;     /* of a picture in hand */
+    bool overwrite;              /* a page that is there */
+    wf_page_make_fn *make_clip;  /* NULL: clips are there, and all are looked at first */
     void *make_user;
     const volatile sig_atomic_t *cancelled; /* not 0: to stop soon; NULL: never */
     weft_progress_fn *progress; /* called after every frame that is measured or packed; NULL */

@@ -45,17 +45,23 @@ static weft_status no_such_frame(const wf_preview_request *r, int64_t frames, we
                    r->video, r->frame, frames);
 }
 
+static weft_status check_cancelled(const wf_preview_request *r, weft_error *err) {
+    if (!r->cancelled || !*r->cancelled) return WEFT_OK;
+    return wf_fail(err, WEFT_INTERRUPTED, "interrupted; no preview was written");
+}
+
 /* Counts the frames of a video that does not say how many it has. */
 static weft_status count_frames(const wf_preview_request *r, int64_t *frames, weft_error *err) {
-    const wf_video_options options = {.raster = r->raster,
-                                      .max_memory_bytes = r->max_memory_bytes};
+    const wf_video_options options = {
+        .raster = r->raster, .transfer = r->transfer, .max_memory_bytes = r->max_memory_bytes};
     const wf_video_frame *frame;
     wf_video *video;
     weft_status status = wf_video_open(r->video, &options, &video, err);
     if (status) return status;
     *frames = wf_video_info_of(video)->frames;
     for (int64_t n = 0; *frames < 0 && !status; n++) {
-        status = wf_video_next(video, &frame, err);
+        status = check_cancelled(r, err);
+        if (!status) status = wf_video_next(video, &frame, err);
         if (!status && !frame) *frames = n;
     }
     wf_video_close(video);
@@ -69,7 +75,8 @@ static weft_status find_frame(const wf_preview_request *r, wf_video *video, int6
     int64_t next, passed = 0;
     if (number) status = wf_video_seek(video, number, &next, err);
     while (!status) {
-        status = wf_video_next(video, frame, err);
+        status = check_cancelled(r, err);
+        if (!status) status = wf_video_next(video, frame, err);
         if (!status && !*frame) return no_such_frame(r, passed, err);
         if (!status && (*frame)->index >= number) return WEFT_OK;
         if (!status) passed = (*frame)->index + 1;
@@ -200,9 +207,14 @@ static weft_status check_ending(const char *path, weft_error *err) {
                    path);
 }
 
-weft_status wf_preview_read_frame(const char *text, int64_t *frame, weft_error *err) {
+weft_status wf_preview_read_frame(const char *text, const char *preview, int64_t *frame,
+                                  weft_error *err) {
     char *end;
     if (!text) return WEFT_OK;
+    if (!preview)
+        return wf_fail(err, WEFT_USAGE,
+                       "--preview-frame says which frame a preview is of; give --preview "
+                       "look.png too, or leave it out");
     errno = 0;
     long long number = strtoll(text, &end, 10);
     if (!errno && end != text && !*end && number >= 0) {
@@ -217,16 +229,13 @@ weft_status wf_preview_read_frame(const char *text, int64_t *frame, weft_error *
 }
 
 weft_status wf_preview_check_name(const char *path, bool overwrite, weft_error *err) {
-    wf_outfile *file;
     weft_status status = check_ending(path, err);
-    if (!status) status = wf_outfile_open(path, overwrite, &file, err);
-    if (!status) wf_outfile_abandon(file);
-    return status;
+    return status ? status : wf_outfile_check(path, overwrite, err);
 }
 
 weft_status wf_preview_write(const wf_preview_request *r, const char *path, weft_error *err) {
-    const wf_video_options options = {.raster = r->raster,
-                                      .max_memory_bytes = r->max_memory_bytes};
+    const wf_video_options options = {
+        .raster = r->raster, .transfer = r->transfer, .max_memory_bytes = r->max_memory_bytes};
     picture p = {.rgb = NULL};
     wf_video *video = NULL;
     int64_t frames = 0, number = r->frame;
@@ -241,6 +250,7 @@ weft_status wf_preview_write(const wf_preview_request *r, const char *path, weft
         if (raster->scan == WF_INTERLACED) deinterlace(&p, wf_raster_parity(raster, 0));
         status = make_square(&p, wf_ratio_value(raster->pixel_aspect), r, err);
     }
+    if (!status) status = check_cancelled(r, err);
     if (!status) status = write_picture(&p, r, path, err);
     if (video) wf_video_close(video);
     free(p.rgb);

@@ -7,10 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "convert/ask/compare.h"
 #include "convert/base/fail.h"
+#include "convert/base/names.h"
 #include "convert/base/outfile.h"
+#include "convert/job/colors.h"
 #include "convert/job/job.h"
-#include "convert/page/compare.h"
 #include "convert/page/preview.h"
 #include "convert/program/job_state.h"
 
@@ -132,11 +134,13 @@ static weft_status compare(wf_job_state *state, weft_job *job, weft_error *err) 
         return wf_fail(err, WEFT_USAGE,
                        "--preview is of one video, and --compare makes several; give it to "
                        "weft page, or to a run of its own");
+    if (state->preview_frame)
+        return wf_fail(err, WEFT_USAGE, "--preview-frame is of --preview; leave it out");
     weft_job_on_warning(job, on_warning, state);
     weft_job_on_print(job, on_print, state);
     wf_cmd_catch_signals(job);
-    weft_status status = wf_page_compare(job, state->compare, &request, err);
-    wf_cmd_ignore_signals();
+    weft_status status = wf_ask_compare(job, state->compare, &request, err);
+    if (!state->listed) wf_cmd_ignore_signals();
     wf_meter_clear(&state->meter);
     return status;
 }
@@ -150,31 +154,62 @@ static weft_status refuse_page(const char *output, weft_error *err) {
                    output);
 }
 
-static weft_status read_preview(const wf_job_state *state, const weft_job *job,
-                                wf_preview_request *preview, weft_error *err) {
-    *preview = (wf_preview_request){.video = job->output,
-                                    .raster = &job->raster,
-                                    .frame = -1,
-                                    .max_memory_bytes = job->max_memory_bytes,
-                                    .overwrite = job->overwrite};
-    if (!state->preview) return WEFT_OK;
-    if (!job->output || !strcmp(job->output, "-") || job->dry_run)
+/* What a preview is made of, and what it needs to stay where it is. */
+typedef struct previewing {
+    wf_preview_request request;
+    wf_raster raster;
+    wf_transfer transfer;
+} previewing;
+
+/* Outputs that leave no video to look at. */
+static bool leaves_video(const char *output) {
+    return output && strcmp(output, "-") != 0 && strncmp(output, "null:", 5) != 0 &&
+           strncmp(output, "hash:", 5) != 0;
+}
+
+static weft_status check_preview_name(const wf_job_state *state, const weft_job *job,
+                                      weft_error *err) {
+    const char *others[] = {job->output, job->key, state->report};
+    bool own = false;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        own |= others[i] && wf_name_replaces(state->preview, others[i]);
+    for (size_t i = 0; i < job->input_count; i++)
+        own |= wf_name_replaces(state->preview, job->inputs[i]);
+    if (!own) return wf_preview_check_name(state->preview, job->overwrite, err);
+    return wf_fail(err, WEFT_USAGE,
+                   "--preview %.300s would replace what the job reads or writes; give it "
+                   "another name",
+                   state->preview);
+}
+
+/* The raster is taken before the run settles it. */
+static weft_status read_preview(const wf_job_state *state, const weft_job *job, previewing *p,
+                                weft_error *err) {
+    p->raster = wf_job_raster_shown(job);
+    p->transfer = wf_color_transfer_of(job->to);
+    p->request = (wf_preview_request){.video = job->output,
+                                      .raster = &p->raster,
+                                      .transfer = job->to ? &p->transfer : NULL,
+                                      .frame = -1,
+                                      .max_memory_bytes = job->max_memory_bytes,
+                                      .overwrite = job->overwrite,
+                                      .cancelled = &job->cancelled};
+    weft_status status =
+        wf_preview_read_frame(state->preview_frame, state->preview, &p->request.frame, err);
+    if (status || !state->preview) return status;
+    if (!leaves_video(job->output) || job->dry_run)
         return wf_fail(
             err, WEFT_USAGE,
             "--preview looks at the video that was written: give an output that is a "
             "file, and no --dry-run");
-    weft_status status = wf_preview_read_frame(state->preview_frame, &preview->frame, err);
-    return status ? status : wf_preview_check_name(state->preview, job->overwrite, err);
+    return check_preview_name(state, job, err);
 }
 
 static weft_status run_job(wf_job_state *state, weft_job *job, weft_error *err) {
     weft_job_on_progress(job, wf_meter_update, &state->meter);
     weft_job_on_warning(job, on_warning, state);
     weft_job_on_print(job, on_print, state);
-    wf_cmd_catch_signals(job);
     weft_status status = weft_job_run(job, err);
-    /* Else the job is about to be freed, and what is left takes no time. */
-    if (!state->listed) wf_cmd_ignore_signals();
     wf_meter_clear(&state->meter);
     bool finished = status == WEFT_OK || status == WEFT_DEGRADED;
     if (finished && !job->plan) say_done(state);
@@ -189,13 +224,19 @@ static weft_status run_job(wf_job_state *state, weft_job *job, weft_error *err) 
 
 /* Runs the job, and looks at what it has written. */
 static weft_status run_and_preview(wf_job_state *state, weft_job *job, weft_error *err) {
-    wf_preview_request preview;
+    previewing p;
     weft_status status = refuse_page(job->output, err);
-    if (!status) status = read_preview(state, job, &preview, err);
-    if (!status) status = run_job(state, job, err);
-    if (!state->preview || (status && status != WEFT_DEGRADED)) return status;
-    weft_status shown = wf_preview_write(&preview, state->preview, err);
-    return shown ? shown : status;
+    if (!status) status = read_preview(state, job, &p, err);
+    if (status) return status;
+    wf_cmd_catch_signals(job);
+    status = run_job(state, job, err);
+    if (state->preview && (!status || status == WEFT_DEGRADED)) {
+        weft_status shown = wf_preview_write(&p.request, state->preview, err);
+        if (shown) status = shown;
+    }
+    /* Else the job is about to be freed, and what is left takes no time. */
+    if (!state->listed) wf_cmd_ignore_signals();
+    return status;
 }
 
 weft_status wf_job_run(wf_job_state *state, weft_job *job, weft_error *err) {

@@ -99,7 +99,7 @@ static weft_status settle_raster(wf_video *v, const wf_video_label *label, weft_
     const wf_raster *given = v->options.raster;
     wf_video_info *info = &v->info;
     info->scan_known = label->scan_known || given;
-    info->transfer = label->transfer;
+    info->transfer = v->options.transfer ? *v->options.transfer : label->transfer;
     info->rate = label->rate;
     info->aspect = label->aspect;
     info->interlaced = label->interlaced;

@@ -21,15 +21,15 @@ data = json.loads(re.search(r'id="player-data">(.*?)</script>', text, re.S).grou
 labels = [v["label"] for v in data["clips"][0]["variants"]]
 assert labels == ["box", "shaped", "least:4", "line+limit=.06", "mitchell:1,0", "line+weight=2+limit=visible:1"], labels
 END
-# The same as page makes of runs one by one.
+# The same as page makes of runs one by one, told their raster, which Y4M does not say.
 weft convert in "${raster[@]}" --aperture box -q -o box.y4m
 weft convert in "${raster[@]}" --aperture line --flicker-limit .06 -q -o line.y4m
-weft page box.y4m line.y4m --label box --label line+limit=.06 -q -o by_hand.html
+weft page box.y4m line.y4m --raster "${raster[1]}" --label box --label line+limit=.06 -q -o by_hand.html
 check "two of them" exits 0 weft convert in "${raster[@]}" --compare box,line+limit=.06 -q -o two.html
 check "the page is the one that page makes of both videos" cmp two.html by_hand.html
 # What the command line holds goes for entries that say nothing else.
 weft convert in "${raster[@]}" --aperture line --flicker-weight 2 -q -o weighed.y4m
-weft page weighed.y4m --label line -q -o by_hand.html --overwrite
+weft page weighed.y4m --raster "${raster[1]}" --label line -q -o by_hand.html --overwrite
 check "a weight of the command line" exits 0 weft convert in "${raster[@]}" --flicker-weight 2 --compare line \
     -q -o weighed.html
 check "is that of the page" cmp weighed.html by_hand.html
@@ -57,6 +57,26 @@ check "a page that is there" fails "exists" weft convert in "${raster[@]}" --com
 check "an input that is not" fails "" weft convert nowhere "${no[@]}" --compare box
 check "no place for clips" fails "TMPDIR" env TMPDIR=$work/nowhere "$WEFT" convert in "${no[@]}" --compare box
 check "nothing of these was written" test ! -e no.html -a -z "$(ls -A temporary)"
+check "a limit twice" refuses "+limit= twice" convert in "${no[@]}" --compare box+limit=.06+limit=.1
+check "sound" refuses "--audio" convert in "${no[@]}" --compare box --audio in.wav
+check "an option that its video cannot have" refuses "box: 4:2:2 takes an even width" convert in \
+    --subframe-rate 480 --raster '17x16@30i,tff' --compare box -o no.html
+check "a page that is a hash" refuses "-o look.html" convert in "${raster[@]}" --compare box -o hash:no.html
+check "a page that is nothing" refuses "-o look.html" convert in "${raster[@]}" --compare box -o null:no.html
+check "a frame without a preview" refuses "--preview" convert in "${no[@]}" --compare box --preview-frame 1
+check "nothing of these, either" test ! -e no.html -a ! -e hash:no.html -a -z "$(ls -A temporary)"
+
+# A page shows the raster and the space that were asked for, which the video alone does not say.
+check "segmented frames" exits 0 weft convert in --subframe-rate 480 --raster '60x40@30psf' --compare box -q -o psf.html
+weft convert in --subframe-rate 480 --raster '60x40@30i,tff' --to rec2100-pq --compare box -q -o pq.html
+check "a page of PQ" grep -q "brought to Rec. 709" pq.html
+weft convert in --subframe-rate 480 --raster '60x40@30i,bff,2020' --compare line+limit=.06 -q -o wide.html
+check "a page of a wider space" grep -q "brought to Rec. 709" wide.html
+weft convert in --subframe-rate 480 --raster '60x40@30i,bff,2020' --aperture line --flicker-limit .06 -q -o wide.y4m
+weft page wide.y4m --raster '60x40@30i,bff,2020' --label line+limit=.06 -q -o by_hand.html --overwrite
+check "is the one that page makes, told the raster" cmp wide.html by_hand.html
+check "a clip in which something is wrong" fails "^weft: box: measuring .*max-memory" weft convert in \
+    --subframe-rate 480 --raster '640x480@30i,tff' --compare box --max-memory 42M -q -o no.html
 mkdir left
 check "an interrupted page" interrupted INT 130 1 "$WEFT" render "$WEFT_SOURCE/examples/scenes/carousel.lua" \
     --compare box,shaped -q -o left/look.html
@@ -116,6 +136,52 @@ check "a preview that is there" fails "exists" weft convert in "${raster[@]}" -o
 check "nothing of these was written" test ! -e x.y4m -a ! -e x.png
 check "a frame that is not there" exits 2 weft page shot.y4m --preview x.png --preview-frame 2
 check "is told with what there is" says "it has 2"
+
+check "a frame without a preview" refuses "--preview" page shot.y4m -o x.html --preview-frame 1
+check "that, of a run" refuses "--preview" convert in "${raster[@]}" -o x.y4m --preview-frame 1
+check "a page whose name will not do" refuses "a page is HTML" page shot.y4m --preview x.png -o x.txt
+for output in null: hash:x.md5; do
+    check "a preview of $output" refuses "--preview looks at" convert in "${raster[@]}" -o $output --preview x.png
+done
+check "nothing was made first" test ! -e x.png -a ! -e x.md5 -a ! -e x.y4m
+
+# What is read or written beside it is not replaced.
+mkdir other
+check "a frame of the output" refuses "would replace" convert in "${raster[@]}" -o pa.####.png --preview pa.0000.png
+check "that, by another way" refuses "would replace" convert in "${raster[@]}" -o pa.####.png --preview ./other/../pa.0007.png
+check "the report" refuses "would replace" convert in "${raster[@]}" -o x.y4m --report r.png --preview r.png
+cp shot.y4m shot.html
+check "a page over its clip" refuses "would replace" page shot.html -o shot.html --overwrite
+cp shot.y4m own.png
+check "a preview over its clip" refuses "would replace" page own.png --preview own.png --overwrite
+ln -s own.png link.png
+check "that, by a link" refuses "would replace" page own.png --preview link.png --overwrite
+check "clips are as they were" cmp shot.y4m shot.html
+
+# Codes of PQ and HLG are light before they are codes of the screen: as bright as those of Rec. 709.
+cat >alike.py <<'END'
+import struct, sys, zlib
+def mean(path):
+    data, at, body = open(path, "rb").read(), 8, b""
+    width, lines = struct.unpack(">II", data[16:24])
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at:at + 8])
+        body += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
+        at += 12 + size
+    raw, above, total = zlib.decompress(body), bytearray(3 * width), 0
+    for y in range(lines):
+        above = bytearray((a + b) & 255 for a, b in zip(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)], above))
+        total += sum(above)
+    return total / width / lines / 3
+a, b = mean(sys.argv[1]), mean(sys.argv[2])
+assert abs(a - b) < 4, (a, b)
+END
+bright=(--subframe-rate 480 --raster '60x40@30i,tff' -q)
+weft convert in "${bright[@]}" -o sdr.y4m --preview sdr.png
+for space in rec2100-pq rec2100-hlg; do
+    check "a preview of $space" exits 0 weft convert in "${bright[@]}" --to $space -o $space.y4m --preview $space.png
+    check "is as bright" python3 alike.py $space.png sdr.png
+done
 
 # Sizes and shapes that few files have: an odd number of lines, one line, pixels that are wide.
 noise() { python3 -B "$WEFT_SOURCE/tests/page/noise.py" "$@"; }

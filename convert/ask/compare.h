@@ -1,6 +1,6 @@
 /* Pages of one job done several times, through an aperture or flicker held each. */
-#ifndef WF_CONVERT_PAGE_COMPARE_H
-#define WF_CONVERT_PAGE_COMPARE_H
+#ifndef WF_CONVERT_ASK_COMPARE_H
+#define WF_CONVERT_ASK_COMPARE_H
 
 #include "convert/page/page.h"
 
@@ -10,7 +10,7 @@
  * "line+limit=.06", "line+weight=2+limit=visible:1". Of the request title, max_bytes,
  * max_memory_bytes, progress, warning and their users are looked at. WEFT_DEGRADED where a run
  * was. */
-weft_status wf_page_compare(weft_job *job, const char *list, const wf_page_request *request,
-                            weft_error *err);
+weft_status wf_ask_compare(weft_job *job, const char *list, const wf_page_request *request,
+                           weft_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* Runs a job once for each aperture of a list, and makes a page of what comes out. */
-#include "convert/page/compare.h"
+#include "convert/ask/compare.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "convert/base/names.h"
+#include "convert/job/audio.h"
+#include "convert/job/colors.h"
 #include "convert/job/job.h"
 
 /* So many different warnings of runs are remembered; further ones may come again. */
@@ -67,12 +69,16 @@ static const struct {
     const char *key, *option;
 } held[] = {{"limit=", "flicker-limit"}, {"weight=", "flicker-weight"}};
 
-static weft_status set_held(weft_job *job, const char *word, const char *entry,
+static weft_status set_held(weft_job *job, const char *word, const char *entry, unsigned *set,
                             weft_error *err) {
     for (size_t i = 0; i < sizeof held / sizeof *held; i++) {
         size_t length = strlen(held[i].key);
-        if (!strncmp(word, held[i].key, length))
-            return weft_job_set(job, held[i].option, word + length, err);
+        if (strncmp(word, held[i].key, length) != 0) continue;
+        if (*set & 1u << i)
+            return wf_fail(err, WEFT_USAGE, "--compare: '%.200s' has +%s twice; leave one out",
+                           entry, held[i].key);
+        *set |= 1u << i;
+        return weft_job_set(job, held[i].option, word + length, err);
     }
     return wf_fail(err, WEFT_USAGE,
                    "--compare: '%.200s' of '%.200s' will not do; after an aperture come "
@@ -83,6 +89,7 @@ static weft_status set_held(weft_job *job, const char *word, const char *entry,
 /* The job as it was asked for, with what the entry says. */
 static weft_status set_entry(comparing *c, const char *entry, weft_error *err) {
     weft_job *job = c->job;
+    unsigned set = 0; /* bits by the rows of held */
     char *words = strdup(entry), *rest = words;
     if (!words) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     job->flicker_weight = c->asked.flicker_weight;
@@ -90,12 +97,17 @@ static weft_status set_entry(comparing *c, const char *entry, weft_error *err) {
     job->limit_is_seen = c->asked.limit_is_seen;
     weft_status status = weft_job_set(job, "aperture", strsep(&rest, "+"), err);
     for (char *word; !status && (word = strsep(&rest, "+"));)
-        status = set_held(job, word, entry, err);
+        status = set_held(job, word, entry, &set, err);
     free(words);
     return status ? status : wf_job_check(job, err);
 }
 
 /* ---- What a page cannot be made of ---- */
+
+static bool has_sound(const weft_job *job) {
+    wf_audio audio;
+    return wf_audio_parse(job->audio, &audio) && audio.kind != WF_AUDIO_NONE;
+}
 
 static weft_status check_job(const weft_job *job, weft_error *err) {
     const struct {
@@ -111,6 +123,10 @@ static weft_status check_job(const weft_job *job, weft_error *err) {
         {job->dry_run, "--compare writes a page: leave --dry-run out, or --compare"},
         {job->key || job->alpha_out,
          "--compare: a page shows pictures without alpha; leave --key and --alpha-out out"},
+        {job->output &&
+             (!strncmp(job->output, "hash:", 5) || !strncmp(job->output, "null:", 5)),
+         "--compare writes a page, which is a file of its own; give -o look.html"},
+        {has_sound(job), "--compare: a page has no sound; leave --audio out"},
         {job->codec, "--compare: a page has no codec; leave --codec out"},
         {job->separate_fields, "--compare: leave --fields out, a page shows all fields"}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
@@ -173,9 +189,11 @@ static weft_status make_folder(comparing *c, weft_error *err) {
                    top, strerror(code));
 }
 
-static weft_status run_into(comparing *c, const char *video, weft_error *err) {
+static weft_status run_into(comparing *c, size_t number, const char *video, weft_error *err) {
     weft_status status = weft_job_set_output(c->job, video, err);
     if (!status) status = weft_job_run(c->job, err);
+    /* The video's name means nothing to whoever gave an option that it cannot have. */
+    if (status == WEFT_USAGE) wf_error_rename(err, video, c->entry[number]);
     if (status == WEFT_DEGRADED) c->worst = status, status = WEFT_OK;
     if (status) return status;
     c->fd = open(video, O_RDONLY | O_CLOEXEC);
@@ -190,7 +208,7 @@ static void close_clip(comparing *c) {
 }
 
 /* Makes the video of an entry. It is taken from its folder as soon as it is open, so that
- * nothing stays behind whatever ends the program. */
+ * only a program that is killed while it writes leaves something: the folder. */
 static weft_status make_clip(void *user, size_t number, wf_page_step_fn *step, void *step_user,
                              const char **path, weft_error *err) {
     comparing *c = user;
@@ -201,10 +219,11 @@ static weft_status make_clip(void *user, size_t number, wf_page_step_fn *step, v
     if (!status) status = make_folder(c, err);
     if (status) return status;
     char *video = video_name(c);
-    status = video ? run_into(c, video, err) : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    status =
+        video ? run_into(c, number, video, err) : wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     free(video);
     remove_folder(c);
-    *path = c->path;
+    if (!status) *path = c->path;
     return status;
 }
 
@@ -220,7 +239,11 @@ static weft_status check_entries(comparing *c, weft_error *err) {
 static weft_status make_page(comparing *c, const char *output, weft_error *err) {
     wf_page_clip clip[WF_PAGE_MOST_CLIPS];
     for (size_t i = 0; i < c->entries; i++) clip[i] = (wf_page_clip){.label = c->entry[i]};
+    const wf_raster raster = wf_job_raster_shown(&c->asked);
+    const wf_transfer transfer = wf_color_transfer_of(c->asked.to);
     wf_page_request request = *c->request;
+    request.raster = &raster;
+    request.transfer = c->asked.to ? &transfer : NULL;
     request.clip = clip;
     request.clips = c->entries;
     request.overwrite = c->asked.overwrite;
@@ -232,8 +255,8 @@ static weft_status make_page(comparing *c, const char *output, weft_error *err) 
     return status ? status : c->worst;
 }
 
-weft_status wf_page_compare(weft_job *job, const char *list, const wf_page_request *request,
-                            weft_error *err) {
+weft_status wf_ask_compare(weft_job *job, const char *list, const wf_page_request *request,
+                           weft_error *err) {
     comparing c = {.job = job, .asked = *job, .request = request, .fd = -1};
     weft_status status = check_job(job, err);
     if (status) return status;
