@@ -103,7 +103,7 @@ convert/plan        : filters/* convert/base convert/job convert/media convert/r
 convert/check       : filters/* color/* convert/base convert/job convert/media convert/media/deinterlace convert/read convert/finish
 convert/check/verify : filters/* color/* convert/base convert/job convert/media convert/media/* convert/read convert/check
 convert/plot        : convert/base
-convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/check
+convert/page        : filters/* color/* convert/base convert/job convert/media convert/read convert/write convert/check
 convert/ask         : filters/* color/* convert/base convert/job convert/media convert/read convert/sound convert/video convert/run convert/check convert/check/verify convert/plot convert/page convert/finish
 convert/program     : filters/* color/* tracer/* convert/base convert/job convert/media convert/read convert/sound convert/write convert/video convert/run convert/check convert/check/verify convert/ask convert/page
 convert/program/plan : convert/base convert/job convert/plan convert/program

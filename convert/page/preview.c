@@ -8,8 +8,9 @@
 #include <string.h>
 
 #include "convert/base/names.h"
-#include "convert/page/png.h"
+#include "convert/base/outfile.h"
 #include "convert/page/shown.h"
+#include "convert/write/png_write.h"
 
 #define GAMMA       2.4f /* of the display, Rec. ITU-R BT.1886 */
 #define MOST_ASPECT 32   /* of a pixel, and the least is 1 / this */
@@ -178,18 +179,49 @@ static weft_status make_square(picture *p, double aspect, const wf_preview_reque
 
 /* ---- The file ---- */
 
+static uint16_t *codes_of(const picture *p) {
+    size_t samples = (size_t)p->width_px * (size_t)p->lines;
+    uint16_t *codes = malloc(3 * samples * sizeof *codes);
+    for (int c = 0; codes && c < 3; c++)
+        for (int y = 0; y < p->lines; y++) {
+            const float *line = line_of(p, y, c);
+            uint16_t *to = codes + (size_t)c * samples + (size_t)y * (size_t)p->width_px;
+            for (int x = 0; x < p->width_px; x++)
+                to[x] = (uint16_t)lrintf(255 * fminf(fmaxf(line[x], 0), 1));
+        }
+    return codes;
+}
+
+static weft_status put_bytes(void *file, const void *data, size_t bytes, weft_error *err) {
+    return wf_outfile_write(file, data, bytes, err);
+}
+
+/* It is no frame of the raster any more, and has none of its labels. */
+static weft_status put_picture(const picture *p, const uint16_t *codes, wf_outfile *file,
+                               weft_error *err) {
+    size_t width = (size_t)p->width_px, samples = width * (size_t)p->lines;
+    const wf_picture_out out = {.channels = 3,
+                                .plane = {codes, codes + samples, codes + 2 * samples},
+                                .line_stride = {width, width, width},
+                                .width_px = p->width_px,
+                                .lines = p->lines,
+                                .bits = 8,
+                                .full_range = true,
+                                .pixel_aspect = {1, 1},
+                                .timecode = "",
+                                .color_space = "",
+                                .raster = ""};
+    return wf_png_encode(&out, put_bytes, file, err);
+}
+
 static weft_status write_picture(const picture *p, const wf_preview_request *r,
                                  const char *path, weft_error *err) {
-    uint8_t *codes = malloc(3 * (size_t)p->width_px * (size_t)p->lines), *to = codes;
+    uint16_t *codes = codes_of(p);
     wf_outfile *file;
     if (!codes) return wf_fail(err, WEFT_NO_MEMORY, "no memory for the picture");
-    for (int y = 0; y < p->lines; y++)
-        for (int x = 0; x < p->width_px; x++)
-            for (int c = 0; c < 3; c++)
-                *to++ = (uint8_t)lrintf(255 * fminf(fmaxf(line_of(p, y, c)[x], 0), 1));
     weft_status status = wf_outfile_open(path, r->overwrite, &file, err);
     if (!status) {
-        status = wf_png_write(codes, p->width_px, p->lines, file, err);
+        status = put_picture(p, codes, file, err);
         if (status)
             wf_outfile_abandon(file);
         else

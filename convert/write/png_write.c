@@ -76,7 +76,7 @@ static void put_text(output *o, const char *key, const char *text) {
 static void put_words(output *o, const wf_picture_out *p) {
     char words[WF_PICTURE_WORDS_SIZE], field[2] = {p->field ? (char)('0' + p->field) : '\0'};
     put_text(o, "Software", WF_PICTURE_SOFTWARE);
-    put_text(o, "Description", wf_picture_words(p, words));
+    if (*p->raster) put_text(o, "Description", wf_picture_words(p, words));
     put_text(o, "weft:raster", p->raster);
     put_text(o, "weft:colorSpace", p->color_space);
     put_text(o, "weft:timecode", p->timecode);

@@ -86,28 +86,16 @@ check "leaves no clips" test -z "$(ls -A temporary)"
 
 # square.py PNG WxH EXPRESSION: it is a whole PNG of that size of which that is so.
 cat >square.py <<'END'
-import struct, sys, zlib
-data = open(sys.argv[1], "rb").read()
-width, lines, bits, kind = struct.unpack(">IIBB", data[16:26])
-want = tuple(map(int, sys.argv[2].split("x")))
-assert (width, lines, bits, kind) == want + (8, 2), (width, lines, bits, kind)
-at, body = 8, b""
-while at < len(data):
-    size, name = struct.unpack(">I4s", data[at:at + 8])
-    assert zlib.crc32(data[at + 4:at + 8 + size]) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
-    body += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
-    at += 12 + size
-raw, rows = zlib.decompress(body), []
-for y in range(lines):
-    row = bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
-    assert raw[y * (3 * width + 1)] == 2
-    rows.append(bytearray((a + b) & 255 for a, b in zip(row, rows[-1])) if rows else row)
+import sys, png
+width, lines, rows = png.read(sys.argv[1])
+assert (width, lines) == tuple(map(int, sys.argv[2].split("x"))), (width, lines)
 # A comb: a line that is far from both neighbors, on the same side.
 comb = sum(min(abs(b - a), abs(b - c)) > 24 and (b > a) == (b > c)
            for y in range(1, lines - 1) for a, b, c in zip(rows[y - 1][::3], rows[y][::3], rows[y + 1][::3]))
 share = comb / width / lines
 assert eval(sys.argv[3], {"share": share, "rows": rows}), share
 END
+export PYTHONPATH="$WEFT_SOURCE/tests/page" PYTHONDONTWRITEBYTECODE=1
 preview() { python3 square.py "$@"; }
 check "a video and its preview" exits 0 weft convert in --subframe-rate 480 --raster '180x122@30i,tff,par=10:11' \
     --aperture box -q -o shot.y4m --preview shot.png
@@ -160,19 +148,10 @@ check "clips are as they were" cmp shot.y4m shot.html
 
 # Codes of PQ and HLG are light before they are codes of the screen: as bright as those of Rec. 709.
 cat >alike.py <<'END'
-import struct, sys, zlib
+import sys, png
 def mean(path):
-    data, at, body = open(path, "rb").read(), 8, b""
-    width, lines = struct.unpack(">II", data[16:24])
-    while at < len(data):
-        size, name = struct.unpack(">I4s", data[at:at + 8])
-        body += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
-        at += 12 + size
-    raw, above, total = zlib.decompress(body), bytearray(3 * width), 0
-    for y in range(lines):
-        above = bytearray((a + b) & 255 for a, b in zip(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)], above))
-        total += sum(above)
-    return total / width / lines / 3
+    width, lines, rows = png.read(path)
+    return sum(map(sum, rows)) / width / lines / 3
 a, b = mean(sys.argv[1]), mean(sys.argv[2])
 assert abs(a - b) < 4, (a, b)
 END
