@@ -24,6 +24,7 @@ extern "C" {
 
 /* The header's version, as text and, for #if, as numbers. */
 #define WEFT_VERSION "0.2.0"
+/* Numbers stand apart, so that nobody's formatter moves the line above, which scripts read. */
 #define WEFT_VERSION_MAJOR 0
 #define WEFT_VERSION_MINOR 2
 #define WEFT_VERSION_PATCH 0
