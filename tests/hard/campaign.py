@@ -194,7 +194,9 @@ def places_to_fail(kind, total, written, options):
     if kind == "disk":
         return list(range(1, written + 1, 4096 if options.every else max(written // options.few, 1)))
     most = MOST if options.every else options.few
-    return sorted(random.sample(range(1, total + 1), min(most, total)))
+    ends = {1, total} if total else set()
+    between = range(2, total)
+    return sorted(ends.union(random.sample(between, min(max(most - 2, 0), len(between)))))
 
 
 def try_one(task):

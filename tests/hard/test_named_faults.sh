@@ -62,11 +62,11 @@ heavy=("$WEFT" render "$scene" --raster 525i --samples 64 --frames 0-99 -q)
 for options in '-o /nonexistent/o.y4m' '-o /nonexistent/o.####.png' '-o /nonexistent/o.####.exr' '-o /nonexistent/o.####.dpx' \
     '-o o.y4m --report /nonexistent/r.json' '-o o.y4m --report .' '-o o.####.png --alpha-out --key /nonexistent/k.####.png'; do
     # shellcheck disable=SC2086
-    check "$options" exits 1 timeout 5 "${heavy[@]}" $options
+    check "$options" exits 1 timeout 60 "${heavy[@]}" $options
     check "$options is named" grep -q "nothing can be written in the directory\|this is a directory" said
     check "$options leaves nothing" test ! -e o.y4m -a ! -e o.0000.png
 done
-check "a trace" exits 1 timeout 5 "$WEFT" trace "$scene" --raster 1080i50 --samples 64 --frames 0-9 --oversample 2x2x4 -q -o /nonexistent/o.####.exr
+check "a trace" exits 1 timeout 60 "$WEFT" trace "$scene" --raster 1080i50 --samples 64 --frames 0-9 --oversample 2x2x4 -q -o /nonexistent/o.####.exr
 check "a heat map" fails "nothing can be written" failing read:1 "$WEFT" measure v.y4m --heatmap /nonexistent/h.png
 check "a response" fails "nothing can be written" "$WEFT" filters shaped --plot /nonexistent/h.png
 check "a frontier" fails "nothing can be written" "$WEFT" filters --frontier /nonexistent/h.png

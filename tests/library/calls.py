@@ -131,6 +131,14 @@ class Calls(unittest.TestCase):
                 for p in range(3):
                     np.testing.assert_array_equal(back.codes(p), codes)
 
+    def test_every_chroma_at_every_depth(self):
+        for across, down in ((1, 1), (2, 1), (2, 2), (4, 1)):
+            for bits in range(8, 17):
+                chroma = np.zeros((1, 64 // down, 64 // across))
+                weft.Clip([np.full((1, 64, 64), 0.5), chroma, chroma], "64x64@25i", bits=bits).write("depth.y4m")
+                back = weft.read("depth.y4m")
+                self.assertEqual((back.bits, back.across, back.down), (bits, across, down))
+
     def test_composite_of_a_clip(self):
         weft.render(SCENE, "tv.y4m", raster="525i", frames=0, samples=1, overwrite=True)
         shown = weft.composite(weft.read("tv.y4m"), encoder="filtered", decoder="comb3")
@@ -152,6 +160,9 @@ class Calls(unittest.TestCase):
                 weft.convert(bad, raster=SMALL, subframe_rate=240)
         with self.assertRaises(weft.UsageError):
             weft.Clip([np.zeros((1, 24, 36))] * 3)
+        for bits in (7, 17):
+            with self.assertRaisesRegex(weft.UsageError, "8 to 16 bits"):
+                weft.Clip([np.zeros((1, 24, 36))] * 3, "36x24@25i", bits=bits)
 
     def test_notebooks(self):
         shown = weft.read("a.y4m", raster=SMALL)._repr_html_()

@@ -50,7 +50,9 @@ CHROMA = {(1, 1): "444", (2, 1): "422", (2, 2): "420mpeg2", (4, 1): "411"}
 def write_y4m(path: str, clip) -> None:
     """Writes a clip of Y' Cb Cr with the codes that it was read from."""
     raster, bits = clip.raster, clip.bits
-    chroma = CHROMA[clip.across, clip.down] + (f"p{bits}" if bits > 8 else "")
+    chroma = CHROMA[clip.across, clip.down]
+    if bits > 8:  # Readers know no siting beside a depth: 420mpeg2p10 is taken for 8 bits.
+        chroma = f"{chroma[:3]}p{bits}"
     scan = ("t" if raster.top_first else "b") if raster.interlaced else "p"
     aspect = raster.pixel_aspect
     full = " XCOLORRANGE=FULL" if clip.full_range else ""

@@ -43,6 +43,8 @@ class Clip:
             raise UsageError("a clip has three planes, each an array (frames, lines, width)")
         if layout not in ("ycbcr", "rgb", "linear"):
             raise UsageError(f"'{layout}' is no layout of a clip; it is one of ycbcr, rgb, linear")
+        if layout != "linear" and bits not in range(8, 17):
+            raise UsageError(f"bits is {bits}; a clip's codes have 8 to 16 bits")
         self.raster: Raster = find_raster(raster)
         self.layout, self.bits, self.full_range = layout, bits, full_range
         #: of the run that made it, where there was one

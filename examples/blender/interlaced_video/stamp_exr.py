@@ -49,9 +49,14 @@ def stamp(path, time=None, region=None):
         raise ValueError(f"{path}: its header is cut off or damaged") from None
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
-    with open(path + ".part", "wb") as file:
-        file.write(made)
-    os.replace(path + ".part", path)
+    try:
+        with open(path + ".part", "wb") as file:
+            file.write(made)
+        os.replace(path + ".part", path)
+    except OSError:
+        if os.path.exists(path + ".part"):
+            os.remove(path + ".part")
+        raise
 
 
 def stamped(data, time, region):
