@@ -12,23 +12,42 @@ static int read_size(const char *text) {
     return *end || value < 1 || value > 1 << 20 ? 0 : (int)value;
 }
 
-/* "420jpeg", "422p10", "444alpha", "mono12". */
+/* Bits that follow "p", or "mono" itself; 0: that is no number of bits. */
+static int read_depth(const char *text) {
+    char *end;
+    long bits = *text >= '0' && *text <= '9' ? strtol(text, &end, 10) : 0;
+    return bits >= 8 && bits <= 16 && !*end ? (int)bits : 0;
+}
+
+static bool is_one_of(const char *word, const char *const words[]) {
+    while (*words && strcmp(*words, word)) words++;
+    return *words;
+}
+
+/* "420jpeg", "422p10", "444alpha", "mono12". What follows a sampling says how many bits there
+ * are, so that one that is not known may not be passed over. */
 static void read_chroma(wf_y4m *h) {
     static const struct {
-        const char *name;
+        const char *name, *depth;
         int across, down;
-    } samplings[] = {
-        {"420", 2, 2}, {"422", 2, 1}, {"444", 1, 1}, {"411", 4, 1}, {"mono", 0, 0}};
+        const char *const eight_bits[5];
+    } samplings[] = {{"420", "p", 2, 2, {"", "jpeg", "mpeg2", "paldv", NULL}},
+                     {"422", "p", 2, 1, {"", NULL}},
+                     {"444", "p", 1, 1, {"", "alpha", NULL}},
+                     {"411", "p", 4, 1, {"", NULL}},
+                     {"mono", "", 0, 0, {"", NULL}}};
     for (size_t i = 0; i < sizeof samplings / sizeof *samplings; i++) {
-        size_t length = strlen(samplings[i].name);
+        size_t length = strlen(samplings[i].name), mark = strlen(samplings[i].depth);
         if (strncmp(h->chroma, samplings[i].name, length)) continue;
         const char *rest = h->chroma + length;
-        int depth = atoi(rest + (*rest == 'p'));
-        h->bits = depth ? depth : 8;
+        bool deep = !strncmp(rest, samplings[i].depth, mark);
+        h->bits = is_one_of(rest, samplings[i].eight_bits) ? 8
+                  : deep                                   ? read_depth(rest + mark)
+                                                           : 0;
         h->across = samplings[i].across;
         h->down = samplings[i].down;
         h->alpha = !strcmp(rest, "alpha");
-        h->known = h->bits >= 8 && h->bits <= 16;
+        h->known = h->bits > 0;
         return;
     }
 }

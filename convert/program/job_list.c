@@ -26,6 +26,7 @@ typedef struct job_list {
     listed *item;
     size_t count;
     const char *report; /* NULL: none is wanted */
+    const char *only;   /* which jobs; NULL: all */
     bool quiet;
     bool stopped; /* by a signal */
 } job_list;
@@ -68,6 +69,7 @@ static weft_status load(job_list *list, weft_error *err) {
         if (item->status == WEFT_NO_MEMORY)
             return wf_fail(err, WEFT_NO_MEMORY, "%s", item->error.text);
         if (item->state.report) list->report = item->state.report;
+        if (item->state.only) list->only = item->state.only;
         item->state.report = NULL;
         list->quiet = list->quiet || item->state.quiet;
     }
@@ -234,9 +236,9 @@ static weft_status conclude(const job_list *list, weft_error *err) {
     return WEFT_DEGRADED;
 }
 
-static weft_status run_list(job_list *list, const char *only, weft_error *err) {
-    weft_status status = choose(list, only, err);
-    if (!status) status = load(list, err);
+static weft_status run_list(job_list *list, weft_error *err) {
+    weft_status status = load(list, err);
+    if (!status) status = choose(list, list->only, err);
     if (!status) status = check_outputs(list, err);
     if (!status && list->report) status = wf_outfile_check(list->report, true, err);
     if (status) return status;
@@ -253,10 +255,11 @@ weft_status wf_job_list_run(const wf_job_arguments *arguments, const wf_job_stat
     job_list list = {.arguments = arguments,
                      .count = arguments->files.count,
                      .report = seen->report,
+                     .only = seen->only,
                      .quiet = seen->quiet};
     list.item = calloc(list.count, sizeof *list.item);
     if (!list.item) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    weft_status status = run_list(&list, seen->only, err);
+    weft_status status = run_list(&list, err);
     for (size_t i = 0; i < list.count; i++) {
         weft_job_free(list.item[i].job);
         wf_cmd_forget(&list.item[i].state.kept);

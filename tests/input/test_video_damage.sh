@@ -47,6 +47,13 @@ check "by a pipe" fails "before what it says is its end" weft convert <(cat cut.
 head -c $(($(stat -c %s b.ts) / 376 * 188 + 100)) b.ts >cut.ts
 check "a pipe within a packet" fails "." weft convert <(cat cut.ts) $box -o no.y4m
 
+# A word of Y4M that nobody knows may stand for any number of bits.
+for chroma in 420nonsense 422foo 422p 422p7 422p17 422p10x 444p10alpha mono7 monop8 410; do
+    printf 'YUV4MPEG2 W16 H16 F50:1 Ip C%s\nFRAME\n' $chroma >odd.y4m
+    head -c 4096 /dev/zero >>odd.y4m
+    check "chroma $chroma" fails "its chroma is '$chroma'" weft convert odd.y4m $box -o no.y4m
+done
+
 # ---- Damaged ----
 
 # spoilt FROM TO AT: 64 bytes of it become others.

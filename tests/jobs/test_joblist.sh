@@ -54,6 +54,13 @@ check "a list on standard input" exits 0 weft convert --job - --resume <list.jso
 check "one of the list" exits 0 weft convert --job list.json --only 3 --overwrite
 check "is made anew" test c.0000.png -nt a.y4m
 check "and the others are not" test a.y4m -ot single/a.y4m
+python3 -c "import json; d = json.load(open('list.json')); print(json.dumps({'only': '1', 'jobs': d if isinstance(d, list) else d['jobs'],
+    **({} if isinstance(d, list) else {k: v for k, v in d.items() if k != 'jobs'})}))" >only.json
+touch -d '2001-01-01' a.y4m c.0000.png
+check "the list says which" exits 0 weft convert --job only.json --overwrite
+check "and it is made" test a.y4m -nt single/a.y4m -a c.0000.png -ot single/a.y4m
+check "the command line counts more" exits 0 weft convert --job only.json --only 3 --overwrite
+check "and that is made" test c.0000.png -nt single/a.y4m
 
 # ---- A job that makes no sense ----
 sed 's/"codec": "ffv1"/"kodec": "ffv1"/' list.json >bad.json

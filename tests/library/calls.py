@@ -102,6 +102,15 @@ class Calls(unittest.TestCase):
         with self.assertRaises(weft.UsageError):
             weft.measure("a.y4m", dispaly="crt")
 
+    def test_jobs_are_counted_from_1(self):
+        with open("numbered.json", "w") as out:
+            json.dump([{"inputs": "a.####.exr", "output": "n.y4m"}] * 2, out)
+        for number in (-1, 3, 2**64 + 2):
+            with self.subTest(number), self.assertRaises(weft.UsageError):
+                weft.Job().load("numbered.json", number)
+        with self.assertRaises(TypeError):
+            weft.Job().load("numbered.json", 1.9)
+
     def test_arrays_are_files(self):
         """Light that goes in as an array makes the codes that it makes from files."""
         reader = weft.read("t.####.exr", raster="36x24@240p")

@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import json
 import math
+import operator
 import os
 import sys
 import warnings
@@ -213,7 +214,10 @@ class Job:
         """
         if os.fspath(path) == "-":
             raise UsageError("a job is loaded from a file here, not from standard input")
-        call(lib.weft_job_load_nth, self._idle(), os.fsencode(path), int(number))
+        number = operator.index(number)
+        if not 0 <= number < 2**63:
+            raise UsageError(f"there is no job {number}; the first of a list is 1")
+        call(lib.weft_job_load_nth, self._idle(), os.fsencode(path), number)
         with open(path, encoding="utf-8-sig") as file:
             said = json.load(file)
         if number:
