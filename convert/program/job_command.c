@@ -29,11 +29,11 @@ static void on_print(const char *line, void *user) {
     fprintf(stderr, "%s\n", line);
 }
 
-static weft_status check_state(wf_job_state *state, weft_error *err) {
+static weft_status check_state(wf_job_state *state, const weft_job *job, weft_error *err) {
     weft_status status = wf_cmd_meter(&state->meter, state->progress, state->quiet, err);
     if (status) return status;
-    if (state->report && state->output && !strcmp(state->report, "-") &&
-        !strcmp(state->output, "-"))
+    if (state->report && job->output && !strcmp(state->report, "-") &&
+        !strcmp(job->output, "-"))
         return wf_fail(err, WEFT_USAGE,
                        "--report and the output cannot both be standard output");
     return WEFT_OK;
@@ -80,11 +80,10 @@ static weft_status read_arguments(const wf_job_arguments *a, char **words, wf_jo
     wf_job_layer_begin(job, &layer);
     weft_status status = wf_cmd_parse(a->cmd, a->argc, words, state, job, &inputs, err);
     wf_job_layer_end(job, &layer);
-    if (!status) status = check_state(state, err);
     if (inputs) wf_job_clear_inputs(job);
     for (int i = 0; i < inputs && !status; i++) status = weft_job_add_input(job, words[i], err);
     if (!status && state->output) status = weft_job_set_output(job, state->output, err);
-    return status;
+    return status ? status : check_state(state, job, err);
 }
 
 weft_status wf_job_fill(const wf_job_arguments *a, size_t index, wf_job_state *state,

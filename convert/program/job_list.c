@@ -8,6 +8,7 @@
 #include "convert/base/fail.h"
 #include "convert/base/json.h"
 #include "convert/base/outfile.h"
+#include "convert/base/pattern.h"
 #include "convert/job/job.h"
 #include "convert/program/job_state.h"
 
@@ -78,8 +79,12 @@ static weft_status load(job_list *list, weft_error *err) {
 
 /* ---- Outputs ---- */
 
-/* The name of a file with its folder as the system knows it; free(). NULL: no memory. */
+/* The name of a file, of a sequence that of frame 0, with its folder as the system knows it;
+ * free(). NULL: no memory. */
 static char *real_name(const char *path) {
+    char first[PATH_MAX];
+    if (!strncmp(path, "hash:", 5)) path += 5;
+    if (wf_pattern_is(path) && wf_pattern_path(path, 0, first, sizeof first)) path = first;
     const char *slash = strrchr(path, '/');
     char folder[PATH_MAX], *name, *dir = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
     if (!dir) return NULL;
@@ -90,39 +95,53 @@ static char *real_name(const char *path) {
     return name;
 }
 
+/* What a job writes. */
+static const char *const written_words[] = {"output", "key", "preview"};
+enum { WRITTEN = sizeof written_words / sizeof *written_words };
+
+static const char *written_by(const listed *item, size_t which) {
+    const char *names[WRITTEN] = {item->job->output, item->job->key, item->state.preview};
+    return names[which];
+}
+
 /* Parts of one sequence have one name; a job whose output is looked at by nobody has any. */
 static bool may_share(const weft_job *a, const weft_job *b) {
     bool parts = a->chunk_count > 1 && a->chunk_count == b->chunk_count && a->chunk != b->chunk;
     return parts || !a->output || !strncmp(a->output, "null:", 5);
 }
 
-static weft_status refuse_output(const listed *a, const listed *b, weft_error *err) {
+static weft_status refuse_output(const listed *a, const listed *b, size_t which,
+                                 weft_error *err) {
+    const char *word = written_words[which];
     return wf_fail(err, WEFT_USAGE,
-                   "%.300s:%d:%d: job %zu: its output, %.300s, is that of job %zu (line %d) "
+                   "%.300s:%d:%d: job %zu: its %s, %.300s, is that of job %zu (line %d) "
                    "too; give each job of a list an output of its own",
-                   b->text->path, b->text->line + 1, b->text->column + 1, b->text->number,
-                   b->job->output, a->text->number, a->text->line + 1);
+                   b->text->path, b->text->line + 1, b->text->column + 1, b->text->number, word,
+                   written_by(b, which), a->text->number, a->text->line + 1);
 }
 
+/* Every name is held against those of earlier jobs; name[WRITTEN i + k] is number k of job i.
+ */
 static weft_status compare_outputs(const job_list *list, char **name, weft_error *err) {
-    for (size_t b = 0; b < list->count; b++) {
-        const listed *later = &list->item[b];
-        if (!later->job->output) continue;
-        name[b] = real_name(later->job->output);
-        if (!name[b]) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-        for (size_t a = 0; a < b; a++)
-            if (name[a] && !strcmp(name[a], name[b]) &&
-                !may_share(list->item[a].job, later->job))
-                return refuse_output(&list->item[a], later, err);
+    for (size_t n = 0; n < list->count * WRITTEN; n++) {
+        const listed *later = &list->item[n / WRITTEN];
+        const char *given = written_by(later, n % WRITTEN);
+        if (!given) continue;
+        name[n] = real_name(given);
+        if (!name[n]) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+        for (size_t m = 0; m < n / WRITTEN * WRITTEN; m++)
+            if (name[m] && !strcmp(name[m], name[n]) &&
+                !may_share(list->item[m / WRITTEN].job, later->job))
+                return refuse_output(&list->item[m / WRITTEN], later, n % WRITTEN, err);
     }
     return WEFT_OK;
 }
 
 static weft_status check_outputs(const job_list *list, weft_error *err) {
-    char **name = calloc(list->count, sizeof *name);
+    char **name = calloc(list->count * WRITTEN, sizeof *name);
     if (!name) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
     weft_status status = compare_outputs(list, name, err);
-    for (size_t i = 0; i < list->count; i++) free(name[i]);
+    for (size_t i = 0; i < list->count * WRITTEN; i++) free(name[i]);
     free(name);
     return status;
 }

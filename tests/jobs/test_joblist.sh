@@ -90,6 +90,15 @@ check "an output twice" refused 'refused.json:2:2: job 2: its output, ./r.y4m, i
 check "standard output twice" refused "is that of job 1" "[{$good, \"output\": \"-\"}, {$good, \"output\": \"-\"}]"
 check "no JSON" refused "refused.json:2:1: string or '}' expected" '[{'
 check "two lists" refuses 'are both lists of jobs' convert --job list.json --job bad.json
+check "a sequence twice, written otherwise" refused 'its output, k.%04d.png, is that of job 1' \
+    '[{"output": "k.####.png"}, {"output": "k.%04d.png"}]'
+check "sums twice" refused 'its output, hash:./x, is that of job 1' '[{"output": "hash:x"}, {"output": "hash:./x"}]'
+check "a key twice" refused 'its key, k.y4m, is that of job 1' '[{"output": "a1.y4m", "key": "k.y4m"}, {"output": "a2.y4m", "key": "k.y4m"}]'
+check "a key over an output" refused 'its key, a1.y4m, is that of job 1' '[{"output": "a1.y4m"}, {"output": "a2.y4m", "key": "a1.y4m"}]'
+check "a preview twice" refused 'its preview, p.png, is that of job 1' \
+    '{"preview": "p.png", "jobs": [{"output": "a1.y4m"}, {"output": "a2.y4m"}]}'
+echo '{"inputs": "t.####.exr", "output": "-"}' >refused.json
+check "video and a report on one output" refuses 'cannot both be standard output' convert --job refused.json --report -
 check "an output for all" refuses 'is a list of jobs, each of which has its own' convert --job list.json -o r.y4m
 check "an input for all" refuses 'leave out t.0000.exr' convert --job list.json t.0000.exr
 check "--only without a list" refuses '--only is of a list of jobs' convert t.####.exr -o r.y4m --only 1
