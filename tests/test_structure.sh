@@ -196,7 +196,7 @@ cited_pages()
 }
 british_words()
 {
-    grep -n -i -E 'colour|centre|\<grey|neighbour|behaviour|favour|honour|licence|(normal|quant|organ|initial|optim|recogn)is(e|ing|ation)' \
+    grep -n -i -E 'colour|centre|\<grey|neighbour|behaviour|favour|honour|licence|labell(ed[^b]|ing)|(normal|quant|organ|initial|optim|recogn)is(e|ing|ation)' \
         /dev/null "$@"
 }
 words_of_before()

@@ -247,7 +247,7 @@ static weft_status make_page(comparing *c, const char *output, weft_error *err) 
     request.clip = clip;
     request.clips = c->entries;
     request.overwrite = c->asked.overwrite;
-    request.cancelled = &c->job->cancelled;
+    request.canceled = &c->job->canceled;
     request.make_clip = make_clip;
     request.make_user = c;
     weft_job_on_progress(c->job, on_progress, c);

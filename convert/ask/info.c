@@ -213,12 +213,12 @@ weft_status wf_ask_info(weft_job *job, const wf_info_tell *tell_to, weft_warning
     if (status) return status;
     wf_json_open(&json, NULL, '{');
     wf_json_open(&json, "files", '[');
-    for (size_t i = 0; i < job->input_count && !job->cancelled; i++) {
+    for (size_t i = 0; i < job->input_count && !job->canceled; i++) {
         weft_error why = {""};
         status = describe(job->inputs[i], tell_to, &json, &why);
         if (status) wf_trouble(&troubles, status, why.text);
     }
-    if (job->cancelled) wf_trouble(&troubles, WEFT_INTERRUPTED, "interrupted");
+    if (job->canceled) wf_trouble(&troubles, WEFT_INTERRUPTED, "interrupted");
     weft_status told = wf_ask_report(job, &json, err);
     status = wf_troubles_end(&troubles, err);
     return status ? status : told;

@@ -120,7 +120,7 @@ static weft_status read_asked(asking *a, weft_error *err) {
                                       .max_memory_bytes = job->max_memory_bytes,
                                       .progress = job->progress,
                                       .progress_user = job->progress_user,
-                                      .cancelled = &job->cancelled};
+                                      .canceled = &job->canceled};
     weft_status status = wf_ask_inputs(
         job,
         "nothing to measure; give a video, a pattern such as frame.####.exr, or - "

@@ -79,7 +79,7 @@ static weft_status read_asked(asking *a, weft_error *err) {
                                    .max_bytes = WF_PAGE_MOST_BYTES,
                                    .max_memory_bytes = job->max_memory_bytes,
                                    .overwrite = job->overwrite,
-                                   .cancelled = &job->cancelled,
+                                   .canceled = &job->canceled,
                                    .progress = job->progress,
                                    .progress_user = job->progress_user,
                                    .warning = job->warning,
@@ -113,7 +113,7 @@ static weft_status read_preview(const asking *a, wf_preview_request *preview, we
                                     .frame = -1,
                                     .max_memory_bytes = a->request.max_memory_bytes,
                                     .overwrite = a->request.overwrite,
-                                    .cancelled = a->request.cancelled};
+                                    .canceled = a->request.canceled};
     return wf_preview_read_frame(a->asked.preview_frame, a->asked.preview, &preview->frame,
                                  err);
 }

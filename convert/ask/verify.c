@@ -33,7 +33,7 @@ static weft_status read_asked(const weft_job *job, const weft_verify *asked, wf_
                              .raster = asked->raster ? raster : NULL,
                              .progress = job->progress,
                              .progress_user = job->progress_user,
-                             .cancelled = &job->cancelled};
+                             .canceled = &job->canceled};
     weft_status status =
         wf_ask_inputs(job, "nothing to verify; give a delivered file, such as shot.mxf", err);
     if (!status && asked->profile) {

@@ -302,7 +302,7 @@ static weft_status measure_frames(measuring *m, weft_error *err) {
     show_progress(m, 0);
     for (;; m->frames++) {
         const wf_video_frame *frame;
-        if (m->options->cancelled && *m->options->cancelled)
+        if (m->options->canceled && *m->options->canceled)
             return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
         weft_status status = next_frame(m, &frame, err);
         if (!status) status = compare(m, frame, err);
@@ -326,7 +326,7 @@ static weft_status conclude(measuring *m, wf_figures *figures, weft_error *err) 
     figures->info = *wf_video_info_of(m->video);
     const wf_signal *last = signal_of(m, m->frames - 1), *before = signal_of(m, m->frames - 2);
     weft_status status = measure_frame(m, (step){.frame = last, .other = before}, err);
-    if (!status && m->options->cancelled && *m->options->cancelled)
+    if (!status && m->options->canceled && *m->options->canceled)
         return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
     const wf_video_frame *none;
     if (!status && m->reference && m->deinterlaces)

@@ -51,8 +51,7 @@ typedef struct wf_measure_options {
     weft_progress_fn *progress; /* called after every frame; NULL: nobody looks */
     void *progress_user;
     const char *stage; /* what progress is told of; NULL: "measure". Static storage */
-    const volatile sig_atomic_t
-        *cancelled; /* looked at before every frame; NULL: nobody asks */
+    const volatile sig_atomic_t *canceled; /* looked at before every frame; NULL: nobody asks */
 } wf_measure_options;
 
 #endif

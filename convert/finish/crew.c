@@ -1,5 +1,5 @@
 /* The threads of a run: the only file that starts any, and the one place where failures,
- * cancelling and progress meet. */
+ * canceling and progress meet. */
 #include "convert/finish/crew.h"
 
 #include <math.h>
@@ -237,11 +237,11 @@ void wf_crew_fail(wf_crew *crew, wf_worker *worker, weft_status status) {
 }
 
 bool wf_crew_stopped(const wf_crew *crew) {
-    return atomic_load(&crew->stop) || crew->job->cancelled;
+    return atomic_load(&crew->stop) || crew->job->canceled;
 }
 
 weft_status wf_crew_status(const wf_crew *crew, weft_error *err) {
-    if (crew->job->cancelled) return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
+    if (crew->job->canceled) return wf_fail(err, WEFT_INTERRUPTED, "interrupted");
     for (int t = 0; t < crew->threads; t++)
         if (crew->workers[t].status)
             return wf_fail(err, crew->workers[t].status, "%s", crew->workers[t].error.text);

@@ -7,7 +7,7 @@
 #include "convert/job/job.h"
 
 /* The threads of a run: how work is shared out among them, and how they all learn that one of
- * them has failed or that the job was cancelled. Whoever shares work out cuts it into pieces
+ * them has failed or that the job was canceled. Whoever shares work out cuts it into pieces
  * that do not depend on the number of threads, so that the bits of the result do not either. */
 
 /* One thread, as its pieces of work see it. */
@@ -19,7 +19,7 @@ typedef struct wf_worker {
 } wf_worker;
 
 typedef struct wf_crew {
-    weft_job *job; /* whose cancelling is heeded, and who is told of progress */
+    weft_job *job; /* whose canceling is heeded, and who is told of progress */
     wf_worker *workers;
     int threads;
     atomic_bool stop;       /* a worker has failed */

@@ -376,7 +376,7 @@ static void tell_alpha(const wf_frames *f, double pixels, wf_report *report) {
 }
 
 void wf_frames_tell(wf_frames *f, wf_report *report) {
-    wf_aside_end(&f->writing, NULL); /* of a run that was cancelled or failed */
+    wf_aside_end(&f->writing, NULL); /* of a run that was canceled or failed */
     double pixels = (double)f->raster->width_px * f->raster->lines;
     report->write_s = f->write_s;
     report->legal.counts = f->legal;

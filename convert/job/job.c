@@ -84,7 +84,7 @@ weft_status weft_job_set_command(weft_job *job, const char *name, weft_error *er
 }
 
 void weft_job_cancel(weft_job *job) {
-    job->cancelled = 1;
+    job->canceled = 1;
 }
 
 const char *weft_job_report(const weft_job *job) {

@@ -93,7 +93,7 @@ struct weft_job {
     void *warning_user;
     weft_print_fn *print;
     void *print_user;
-    volatile sig_atomic_t cancelled;
+    volatile sig_atomic_t canceled;
     char *report; /* JSON of the last run */
     char *plan;   /* of a dry run, for people; NULL: there is none */
     char *asked;  /* what weft_job_plan has told; NULL: nothing */

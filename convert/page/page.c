@@ -84,8 +84,8 @@ static void on_measured(const weft_progress *progress, void *user) {
             progress->frames_total, user);
 }
 
-static weft_status check_cancelled(const making *m, weft_error *err) {
-    if (!request_of(m)->cancelled || !*request_of(m)->cancelled) return WEFT_OK;
+static weft_status check_canceled(const making *m, weft_error *err) {
+    if (!request_of(m)->canceled || !*request_of(m)->canceled) return WEFT_OK;
     return wf_fail(err, WEFT_INTERRUPTED, "interrupted; no page was written");
 }
 
@@ -233,7 +233,7 @@ static weft_status count_heat(making *m, const wf_page_packed *clip, weft_error 
 
 static weft_status pack_frame(making *m, wf_page_packed *clip, wf_page_shown *shown,
                               const wf_video_frame *frame, weft_error *err) {
-    weft_status status = check_cancelled(m, err);
+    weft_status status = check_canceled(m, err);
     wf_page_shown_take(shown, frame);
     for (int field = 0; field < 2 && !status; field++) {
         int parity = wf_raster_parity(&clip->info.raster, field);
@@ -341,7 +341,7 @@ static weft_status take_clip(making *m, weft_error *err) {
     wf_page *page = &m->page;
     wf_page_packed *clip = &page->clip[m->clip];
     weft_status status = make(m, clip, err);
-    if (!status) status = check_cancelled(m, err);
+    if (!status) status = check_canceled(m, err);
     if (!status) status = measure(m, clip, err);
     if (!status) status = pack(m, clip, err);
     if (!m->clip || clip->frames < page->frames) page->frames = clip->frames;

@@ -38,7 +38,7 @@ typedef struct wf_page_request {
     bool overwrite;              /* a page that is there */
     wf_page_make_fn *make_clip;  /* NULL: clips are there, and all are looked at first */
     void *make_user;
-    const volatile sig_atomic_t *cancelled; /* not 0: to stop soon; NULL: never */
+    const volatile sig_atomic_t *canceled; /* not 0: to stop soon; NULL: never */
     weft_progress_fn *progress; /* called after every frame that is measured or packed; NULL */
     void *progress_user;
     weft_warning_fn *warning; /* what is guessed or left out; NULL */

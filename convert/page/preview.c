@@ -46,8 +46,8 @@ static weft_status no_such_frame(const wf_preview_request *r, int64_t frames, we
                    r->video, r->frame, frames);
 }
 
-static weft_status check_cancelled(const wf_preview_request *r, weft_error *err) {
-    if (!r->cancelled || !*r->cancelled) return WEFT_OK;
+static weft_status check_canceled(const wf_preview_request *r, weft_error *err) {
+    if (!r->canceled || !*r->canceled) return WEFT_OK;
     return wf_fail(err, WEFT_INTERRUPTED, "interrupted; no preview was written");
 }
 
@@ -61,7 +61,7 @@ static weft_status count_frames(const wf_preview_request *r, int64_t *frames, we
     if (status) return status;
     *frames = wf_video_info_of(video)->frames;
     for (int64_t n = 0; *frames < 0 && !status; n++) {
-        status = check_cancelled(r, err);
+        status = check_canceled(r, err);
         if (!status) status = wf_video_next(video, &frame, err);
         if (!status && !frame) *frames = n;
     }
@@ -76,7 +76,7 @@ static weft_status find_frame(const wf_preview_request *r, wf_video *video, int6
     int64_t next, passed = 0;
     if (number) status = wf_video_seek(video, number, &next, err);
     while (!status) {
-        status = check_cancelled(r, err);
+        status = check_canceled(r, err);
         if (!status) status = wf_video_next(video, frame, err);
         if (!status && !*frame) return no_such_frame(r, passed, err);
         if (!status && (*frame)->index >= number) return WEFT_OK;
@@ -282,7 +282,7 @@ weft_status wf_preview_write(const wf_preview_request *r, const char *path, weft
         if (raster->scan == WF_INTERLACED) deinterlace(&p, wf_raster_parity(raster, 0));
         status = make_square(&p, wf_ratio_value(raster->pixel_aspect), r, err);
     }
-    if (!status) status = check_cancelled(r, err);
+    if (!status) status = check_canceled(r, err);
     if (!status) status = write_picture(&p, r, path, err);
     if (video) wf_video_close(video);
     free(p.rgb);

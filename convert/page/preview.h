@@ -15,7 +15,7 @@ typedef struct wf_preview_request {
     int64_t frame;               /* below 0: the middle one, of an even number the later */
     size_t max_memory_bytes;     /* of a picture in hand */
     bool overwrite;              /* a picture that is there */
-    const volatile sig_atomic_t *cancelled; /* not 0: to stop soon; NULL: never */
+    const volatile sig_atomic_t *canceled; /* not 0: to stop soon; NULL: never */
 } wf_preview_request;
 
 /* Writes a PNG of 8-bit R'G'B' with square pixels: as many lines as the frame has, and its

@@ -17,7 +17,7 @@ typedef struct wf_plan_subframe {
 
 /* What all subframes have in common, and which of them some window meets. */
 typedef struct wf_plan {
-    const weft_job *asked; /* the caller's, which may be cancelled */
+    const weft_job *asked; /* the caller's, which may be canceled */
     weft_job job;     /* as it was asked, with its cadence settled; borrows what the job owns */
     wf_rational rate; /* subframes a second of the scene's time */
     wf_rational shown_rate; /* and of the video's: film runs .1 % slower or faster */

@@ -13,8 +13,8 @@
 #include "convert/read/sequence.h"
 #include "convert/read/source.h"
 
-static weft_status check_cancelled(const wf_plan *plan, weft_error *err) {
-    return plan->asked->cancelled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted") : WEFT_OK;
+static weft_status check_canceled(const wf_plan *plan, weft_error *err) {
+    return plan->asked->canceled ? wf_fail(err, WEFT_INTERRUPTED, "interrupted") : WEFT_OK;
 }
 
 static wf_box whole_of(const wf_plan *plan) {
@@ -138,7 +138,7 @@ static weft_status take_files(wf_refining *r, const wf_sequence *found, weft_err
         if (!ref->path || ref->number.den != 1 || r->slot[slot].number != ref->number.num ||
             !is_numbered(ref))
             continue;
-        status = check_cancelled(r->plan, err);
+        status = check_canceled(r->plan, err);
         if (!status) status = take_file(r->plan, &r->slot[slot], ref, err);
         taken++;
     }
@@ -216,7 +216,7 @@ static weft_status refine_fields(wf_refining *r, weft_error *err) {
     const wf_plan *plan = r->plan;
     weft_status status = WEFT_OK;
     for (int64_t n = plan->first_field; !status && n < plan->end_field; n++) {
-        status = check_cancelled(plan, err);
+        status = check_canceled(plan, err);
         if (!status) status = refine_field(r, n, err);
     }
     for (int64_t n = plan->first_field; !status && n < plan->end_field; n++)

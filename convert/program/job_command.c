@@ -192,7 +192,7 @@ static weft_status read_preview(const wf_job_state *state, const weft_job *job, 
                                       .frame = -1,
                                       .max_memory_bytes = job->max_memory_bytes,
                                       .overwrite = job->overwrite,
-                                      .cancelled = &job->cancelled};
+                                      .canceled = &job->canceled};
     weft_status status =
         wf_preview_read_frame(state->preview_frame, state->preview, &p->request.frame, err);
     if (status || !state->preview) return status;

@@ -21,12 +21,12 @@
 /* ---- Which raster it is ---- */
 
 static bool fits(const wf_raster *r, const wf_video_info *info, const wf_video_label *label) {
-    bool as_labelled = label->interlaced
-                           ? r->scan == WF_INTERLACED && r->top_first == label->top_first
-                           : r->scan == WF_PROGRESSIVE;
+    bool as_labeled = label->interlaced
+                          ? r->scan == WF_INTERLACED && r->top_first == label->top_first
+                          : r->scan == WF_PROGRESSIVE;
     return r->width_px == info->width_px && r->lines == info->lines &&
            (!wf_ratio_given(label->rate) || wf_ratio_equal(r->frame_rate, label->rate)) &&
-           (!label->scan_known || as_labelled);
+           (!label->scan_known || as_labeled);
 }
 
 /* Whether progressive frames have the size and rate of an interlaced raster: those of

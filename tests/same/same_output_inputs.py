@@ -155,7 +155,7 @@ def pictures(to):
         sequence(f"{to}/{name}", lambda path, k, look=look: write(path, rgb(look(k))))
     sequence(f"{to}/rgba", rgba)
     sequence(f"{to}/over", overscan)
-    sequence(f"{to}/labelled", labelled)
+    sequence(f"{to}/labeled", labeled)
     sequence(f"{to}/layers", layers)
     sequence(f"{to}/kinds", lambda path, k: write(path, rgb(disc(k)[0][:, :95]), half="RB"))
     sequence(f"{to}/gray", lambda path, k: write(path, {"Y": disc(k)[1]}, half=True))
@@ -176,7 +176,7 @@ def overscan(path, k):
     write(path, rgb(disc(k, 128, 90)[0]), origin=(-20, 5), display=(-4, 16, -4 + WIDTH - 1, 16 + LINES - 1), half=True)
 
 
-def labelled(path, k):
+def labeled(path, k):
     """With a rate, and timecode of 24 frames a second from 10:00:00:12 on."""
     label = 0x10000012 if k < 8 else 0x10000013
     more = rational("framesPerSecond", 24, 1) + attribute("timeCode", "timecode", struct.pack("<II", label, 0))

@@ -25,10 +25,10 @@ wf_verdict wf_check_labels(const wf_subject *s, wf_finding *f) {
     const wf_frame_labels *l = &s->labels;
     char is[160], should[160] = "a label in every file", text[2][WF_TIMECODE_SIZE];
     bool right = wf_timecode_check(&l->first, s->raster.frame_rate, should, sizeof should) &&
-                 l->labelled == l->files && !l->wrong;
-    if (!l->labelled) return wf_open_question(f, "the files have none");
+                 l->labeled == l->files && !l->wrong;
+    if (!l->labeled) return wf_open_question(f, "the files have none");
     snprintf(is, sizeof is, "%s, in %" PRId64 " of %" PRId64 " files",
-             wf_timecode_text(&l->first, text[0]), l->labelled, l->files);
+             wf_timecode_text(&l->first, text[0]), l->labeled, l->files);
     if (l->wrong)
         snprintf(is, sizeof is, "%s, %" PRId64 " files after %s",
                  wf_timecode_text(&l->is, text[1]), l->wrong_at, text[0]);

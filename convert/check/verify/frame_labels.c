@@ -88,7 +88,7 @@ static bool same_label(const wf_timecode *a, const wf_timecode *b) {
 static void add_label(wf_frame_labels *l, const wf_timecode *label, wf_rational rate,
                       int64_t i) {
     char why[160];
-    if (!l->labelled++) l->first = *label;
+    if (!l->labeled++) l->first = *label;
     bool counts = wf_timecode_check(&l->first, rate, why, sizeof why);
     wf_timecode should = counts ? wf_timecode_add(&l->first, i, rate) : *label;
     if (same_label(label, &should) || l->wrong++) return;

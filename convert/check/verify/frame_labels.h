@@ -8,7 +8,7 @@
 /* What the files of an image sequence say of their places in it (DPX: SMPTE ST 268-1, the
  * television header; EXR: timeCode). */
 typedef struct wf_frame_labels {
-    int64_t files, labelled;
+    int64_t files, labeled;
     wf_timecode first;      /* of the first file that has one */
     int64_t wrong;          /* files whose label does not follow from the first's */
     wf_timecode is, should; /* of the first of those; its place is wrong_at */

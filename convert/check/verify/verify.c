@@ -107,7 +107,7 @@ weft_status wf_verify(const char *path, const wf_verify_options *options, wf_ver
                                         .max_memory_bytes = options->max_memory_bytes,
                                         .progress = options->progress,
                                         .progress_user = options->progress_user,
-                                        .cancelled = options->cancelled};
+                                        .canceled = options->canceled};
     weft_error trouble = {""}, untold;
     wf_subject s = {.profile = options->profile};
     *out = (wf_verification){.profile = options->profile};

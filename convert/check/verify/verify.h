@@ -27,7 +27,7 @@ typedef struct wf_verify_options {
     size_t max_memory_bytes;
     weft_progress_fn *progress;
     void *progress_user;
-    const volatile sig_atomic_t *cancelled; /* as of wf_measure_options */
+    const volatile sig_atomic_t *canceled; /* as of wf_measure_options */
 } wf_verify_options;
 
 /* Reads the file to its end. A file that cannot be read is a finding, not an error; errors are

@@ -145,7 +145,7 @@ static weft_status add_pictures(const batch *b, wf_worker *worker, int band) {
         }
         if (status) return status;
         add_to_fields(b, worker, band, &input);
-        if (b->run->job->cancelled) return WEFT_INTERRUPTED;
+        if (b->run->job->canceled) return WEFT_INTERRUPTED;
     }
     return WEFT_OK;
 }

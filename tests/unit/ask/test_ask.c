@@ -109,7 +109,7 @@ static void troubles_are_counted(void **state) {
     assert_non_null(strstr(weft_job_report(a->job), "\"flicker\""));
 }
 
-static void cancelled_jobs_stop(void **state) {
+static void canceled_jobs_stop(void **state) {
     asked *a = *state;
     weft_job_cancel(a->job);
     assert_int_equal(weft_job_measure(a->job, NULL, &a->err), WEFT_INTERRUPTED);
@@ -160,7 +160,7 @@ int main(void) {
         cmocka_unit_test(what_is_given_out_grows),
         cmocka_unit_test_setup_teardown(one_job_is_asked_again, set_up, tear_down),
         cmocka_unit_test_setup_teardown(troubles_are_counted, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(cancelled_jobs_stop, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(canceled_jobs_stop, set_up, tear_down),
         cmocka_unit_test(nothing_is_nothing),
         cmocka_unit_test_setup_teardown(video_is_read, set_up, tear_down),
     };

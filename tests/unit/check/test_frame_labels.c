@@ -28,7 +28,7 @@ static int remove_directory(void **state) {
 
 /* What a header says; bytes less than HEADER_BYTES cut it off. */
 typedef struct header {
-    bool labelled, little;
+    bool labeled, little;
     wf_timecode label;
     int interlace;
     size_t bytes;
@@ -40,7 +40,7 @@ static void path_of(char path[64], int number) {
 
 static void write_header(int number, const header *h, wf_rational rate) {
     uint8_t bytes[HEADER_BYTES] = {0};
-    uint32_t word = h->labelled ? wf_timecode_bcd(&h->label, rate) : UINT32_MAX;
+    uint32_t word = h->labeled ? wf_timecode_bcd(&h->label, rate) : UINT32_MAX;
     char path[64];
     memcpy(bytes, h->little ? "XPDS" : "SDPX", 4);
     for (int i = 0; i < 4; i++)
@@ -69,7 +69,7 @@ static wf_frame_labels labels_of(const header *headers, int count, wf_rational r
 }
 
 static header at(int seconds, int frames) {
-    return (header){.labelled = true,
+    return (header){.labeled = true,
                     .label = {.hours = 10, .seconds = seconds, .frames = frames},
                     .interlace = 1,
                     .bytes = HEADER_BYTES};
@@ -87,7 +87,7 @@ static void labels_that_follow(void **state) {
         h[1].little = little;
         wf_frame_labels l = labels_of(h, 3, wf_ratio(25, 1));
         assert_int_equal(l.files, 3);
-        assert_int_equal(l.labelled, 3);
+        assert_int_equal(l.labeled, 3);
         assert_int_equal(l.wrong, 0);
         assert_int_equal(l.interlace, 1);
         assert_label(l.first, "10:00:00:23");
@@ -100,7 +100,7 @@ static void pairs_of_frames(void **state) {
     (void)state;
     const header h[3] = {at(0, 48), at(0, 49), at(1, 0)};
     wf_frame_labels l = labels_of(h, 3, wf_ratio(50, 1));
-    assert_int_equal(l.labelled, 3);
+    assert_int_equal(l.labeled, 3);
     assert_int_equal(l.wrong, 0);
     assert_label(l.first, "10:00:00:48");
 }
@@ -118,11 +118,11 @@ static void the_first_that_does_not_follow(void **state) {
 static void what_headers_do_not_say(void **state) {
     (void)state;
     header h[3] = {at(0, 0), at(0, 1), at(0, 2)};
-    h[1].labelled = false;
+    h[1].labeled = false;
     h[2].interlace = 0;
     wf_frame_labels l = labels_of(h, 3, wf_ratio(25, 1));
     assert_int_equal(l.files, 3);
-    assert_int_equal(l.labelled, 2);
+    assert_int_equal(l.labeled, 2);
     assert_int_equal(l.wrong, 0); /* the third is two after the first */
     assert_int_equal(l.interlace, -1);
     h[0].interlace = UNDEFINED;
@@ -138,7 +138,7 @@ static void cut_off_headers(void **state) {
     h[1].bytes = 0;
     wf_frame_labels l = labels_of(h, 2, wf_ratio(25, 1));
     assert_int_equal(l.files, 2);
-    assert_int_equal(l.labelled, 0);
+    assert_int_equal(l.labeled, 0);
     assert_int_equal(l.interlace, -1);
 }
 

@@ -1,5 +1,5 @@
 /* The threads of a run: every piece of work is done once, results are taken in order, and a
- * failure or a cancelled job stops all of them, with any number of threads. */
+ * failure or a canceled job stops all of them, with any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -87,7 +87,7 @@ static void failures(void **state) {
     }
 }
 
-static void cancelling(void **state) {
+static void canceling(void **state) {
     weft_job *job = *state;
     pieces p;
     begin(&p, job, 2, -1);
@@ -156,7 +156,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(all_once, new_job, free_job),
         cmocka_unit_test_setup_teardown(failures, new_job, free_job),
         cmocka_unit_test(asides),
-        cmocka_unit_test_setup_teardown(cancelling, new_job, free_job),
+        cmocka_unit_test_setup_teardown(canceling, new_job, free_job),
         cmocka_unit_test_setup_teardown(progress, new_job, free_job),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

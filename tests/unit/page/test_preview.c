@@ -34,15 +34,15 @@ static int tear_down(void **unused) {
     return rmdir(folder);
 }
 
-static void test_cancelled(void **unused) {
-    volatile sig_atomic_t cancelled = 1;
+static void test_canceled(void **unused) {
+    volatile sig_atomic_t canceled = 1;
     const wf_preview_request r = {
-        .video = video, .frame = -1, .max_memory_bytes = 1 << 20, .cancelled = &cancelled};
+        .video = video, .frame = -1, .max_memory_bytes = 1 << 20, .canceled = &canceled};
     weft_error err;
     (void)unused;
     assert_int_equal(wf_preview_write(&r, picture, &err), WEFT_INTERRUPTED);
     assert_int_not_equal(access(picture, F_OK), 0);
-    cancelled = 0;
+    canceled = 0;
     assert_int_equal(wf_preview_write(&r, picture, &err), WEFT_OK);
     assert_int_equal(access(picture, F_OK), 0);
 }
@@ -57,7 +57,7 @@ static void test_transfer(void **unused) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cancelled),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_canceled),
                                        cmocka_unit_test(test_transfer)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -234,7 +234,7 @@ static void what_will_not_do(void **state) {
     refused("raster=8x12@25i subframe-rate=1000000 frames=0-0 temporal-width=64", "room for");
 }
 
-/* Cancelled before it began: while files are looked at, of which the second is damaged, and,
+/* Canceled before it began: while files are looked at, of which the second is damaged, and,
  * where there are none, while fields are. */
 static void refining_can_be_stopped(void **state) {
     (void)state;

@@ -630,7 +630,7 @@ static void cancel_at_once(const weft_progress *progress, void *user) {
     weft_job_cancel(user);
 }
 
-static void cancelled_jobs_leave_nothing(void **state) {
+static void canceled_jobs_leave_nothing(void **state) {
     (void)state;
     char path[512];
     weft_error err = {""};
@@ -661,7 +661,7 @@ int main(void) {
         cmocka_unit_test(inputs_are_safe),
         cmocka_unit_test(identical_pictures_cost_nothing),
         cmocka_unit_test(resumed_sequences_are_whole),
-        cmocka_unit_test(cancelled_jobs_leave_nothing),
+        cmocka_unit_test(canceled_jobs_leave_nothing),
     };
     return cmocka_run_group_tests(tests, job_make_directory, job_remove_directory);
 }
