@@ -102,6 +102,11 @@ class Calls(unittest.TestCase):
         with self.assertRaises(weft.UsageError):
             weft.measure("a.y4m", dispaly="crt")
 
+    def test_codes_are_no_light(self):
+        with self.assertRaisesRegex(weft.UsageError, "uint8 are codes"):
+            weft.convert(np.zeros((8, 24, 36, 3), np.uint8), output="codes.y4m", raster="36x24@25i",
+                         subframe_rate="200")
+
     def test_jobs_are_counted_from_1(self):
         with open("numbered.json", "w") as out:
             json.dump([{"inputs": "a.####.exr", "output": "n.y4m"}] * 2, out)

@@ -69,7 +69,10 @@ class _Folder:
 
 
 def _light(frames: np.ndarray) -> np.ndarray:
-    if frames.ndim != 4 or frames.shape[3] != 3 or not frames.size or frames.dtype.kind not in "fiu":
+    if frames.dtype.kind in "iu":
+        raise UsageError(f"frames of {frames.dtype} are codes, and light is of floats, in which 1 is "
+                         "white: decode them, or give the files that they are from")
+    if frames.ndim != 4 or frames.shape[3] != 3 or not frames.size or frames.dtype.kind != "f":
         raise UsageError("frames are an array (frames, lines, width, 3) of scene-linear light, not "
                          f"{frames.shape} of {frames.dtype}")
     return frames.astype(np.float32)
