@@ -10,9 +10,11 @@
 
 /* ---- Windows ---- */
 
-/* How many instants one field is before another. */
+/* How many instants one field is before another; exact but for fields beyond any run, whose
+ * difference no integer may hold. */
 static double instants_apart(const wf_gather_desc *d, int64_t from, int64_t to) {
-    return (double)(wf_raster_instant(d->raster, to) - wf_raster_instant(d->raster, from));
+    return (double)wf_raster_instant(d->raster, to) -
+           (double)wf_raster_instant(d->raster, from);
 }
 
 /* The window's middle, in field periods after the instant. */

@@ -32,7 +32,7 @@ static unsigned code_at(int x, int y, int c, unsigned noise) {
     case 1:
         return (unsigned)(x * 257 + 11 * c);
     case 2:
-        return (unsigned)(x * x * 977 + c * 31);
+        return (unsigned)x * (unsigned)x * 977 + (unsigned)c * 31;
     case 3:
         return (unsigned)((x * 400 + y * 300 + 5 * c) + (int)(noise % 64));
     case 4:
