@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -244,6 +245,16 @@ static char *folder_of(const char *path) {
     char *real = folder ? realpath(folder, NULL) : NULL;
     free(folder);
     return real;
+}
+
+char *wf_name_place(const char *path) {
+    char first[PATH_MAX], *place;
+    if (wf_pattern_is(path) && wf_pattern_path(path, 0, first, sizeof first)) path = first;
+    char *folder = folder_of(path);
+    if (!folder) return strdup(path);
+    if (asprintf(&place, "%s/%s", folder, wf_base_name(path)) < 0) place = NULL;
+    free(folder);
+    return place;
 }
 
 bool wf_name_replaces(const char *path, const char *other) {

@@ -46,6 +46,11 @@ bool wf_name_is_picture(const char *name);
 /* Whether what follows its last dot is ending (".dpx"), in either case. */
 bool wf_name_ends_in(const char *name, const char *ending);
 
+/* The file at path, of a sequence that of frame 0, by its folder as the system knows it; the
+ * path itself where there is no such folder. Two names of one place give equal text. free().
+ * NULL: no memory. */
+char *wf_name_place(const char *path);
+
 /* Whether a file that is written at path would take the place of another: both are one file, or
  * will have one name, or the other is a sequence ("shot.####.png") that has a file so called.
  */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/base/pattern.h"
+#include "convert/base/names.h"
 #include "convert/job/audio.h"
 #include "convert/job/colors.h"
 #include "convert/sound/sound.h"
@@ -156,22 +156,10 @@ static void describe_codes(const weft_job *job, wf_setup *s, int bits, bool full
 
 /* Two names of one file, or of one sequence. */
 static bool same_files(const char *a, const char *b) {
-    char one[PATH_MAX], other[PATH_MAX], *folder[2];
-    const char *names[2] = {a, b};
-    if (!strcmp(a, b)) return true;
-    for (int i = 0; i < 2; i++) {
-        char *path = i ? other : one;
-        bool numbered = wf_pattern_is(names[i]) && wf_pattern_path(names[i], 0, path, PATH_MAX);
-        if (!numbered) snprintf(path, PATH_MAX, "%s", names[i]);
-        char *slash = strrchr(path, '/');
-        if (slash) *slash = '\0';
-        names[i] = slash ? slash + 1 : path;
-        folder[i] = realpath(!slash ? "." : slash == path ? "/" : path, NULL);
-    }
-    bool same =
-        folder[0] && folder[1] && !strcmp(folder[0], folder[1]) && !strcmp(names[0], names[1]);
-    free(folder[0]);
-    free(folder[1]);
+    char *one = wf_name_place(a), *other = wf_name_place(b);
+    bool same = one && other && !strcmp(one, other);
+    free(one);
+    free(other);
     return same;
 }
 

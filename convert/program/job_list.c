@@ -1,14 +1,13 @@
 /* Runs a list of jobs, one after another: a job that fails does not stop the others, failures
  * are told at the end, and there is one report. */
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "convert/base/fail.h"
 #include "convert/base/json.h"
+#include "convert/base/names.h"
 #include "convert/base/outfile.h"
-#include "convert/base/pattern.h"
 #include "convert/job/job.h"
 #include "convert/program/job_state.h"
 
@@ -79,22 +78,6 @@ static weft_status load(job_list *list, weft_error *err) {
 
 /* ---- Outputs ---- */
 
-/* The name of a file, of a sequence that of frame 0, with its folder as the system knows it;
- * free(). NULL: no memory. */
-static char *real_name(const char *path) {
-    char first[PATH_MAX];
-    if (!strncmp(path, "hash:", 5)) path += 5;
-    if (wf_pattern_is(path) && wf_pattern_path(path, 0, first, sizeof first)) path = first;
-    const char *slash = strrchr(path, '/');
-    char folder[PATH_MAX], *name, *dir = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
-    if (!dir) return NULL;
-    bool known = realpath(slash ? dir : ".", folder);
-    if (asprintf(&name, "%s/%s", known ? folder : dir, slash ? slash + 1 : path) < 0)
-        name = NULL;
-    free(dir);
-    return name;
-}
-
 /* What a job writes. */
 static const char *const written_words[] = {"output", "key", "preview"};
 enum { WRITTEN = sizeof written_words / sizeof *written_words };
@@ -127,7 +110,7 @@ static weft_status compare_outputs(const job_list *list, char **name, weft_error
         const listed *later = &list->item[n / WRITTEN];
         const char *given = written_by(later, n % WRITTEN);
         if (!given) continue;
-        name[n] = real_name(given);
+        name[n] = wf_name_place(strncmp(given, "hash:", 5) ? given : given + 5);
         if (!name[n]) return wf_fail(err, WEFT_NO_MEMORY, "out of memory");
         for (size_t m = 0; m < n / WRITTEN * WRITTEN; m++)
             if (name[m] && !strcmp(name[m], name[n]) &&
