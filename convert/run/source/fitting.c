@@ -86,3 +86,14 @@ wf_resample_desc wf_describe_fields(const weft_job *job, const wf_image_info *fi
     wf_fit_picture(job, first, &desc.x, &desc.y);
     return desc;
 }
+
+weft_status wf_fit_frames(wf_run *run, const wf_resample_desc *desc, int64_t frames,
+                          int64_t *end_field, wf_resampler **out, weft_error *err) {
+    char why[512];
+    weft_status status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
+    if (status) return status;
+    *end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
+    if (!wf_resampler_new(desc, out, why, sizeof why))
+        return wf_fail(err, WEFT_FAILED, "%s", why);
+    return WEFT_OK;
+}

@@ -230,12 +230,7 @@ static weft_status settle_fields(wf_run *run, weft_error *err) {
     int64_t asked = run->job->output_end;
     if (asked > frames && wf_timing_covers(&desc.timing, asked - 1)) frames = asked;
     if (frames < 1) return refuse_few(run, err);
-    status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
-    if (status) return status;
-    s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
-    if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
-        return wf_fail(err, WEFT_FAILED, "%s", why);
-    return WEFT_OK;
+    return wf_fit_frames(run, &desc, frames, &s->end_field, &s->resampler, err);
 }
 
 static weft_status count(wf_run *run, weft_error *err) {

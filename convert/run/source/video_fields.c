@@ -212,7 +212,6 @@ int64_t wf_video_source_frames(const wf_video_source *s, int64_t pictures) {
 static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err) {
     wf_video_source *s = run->source;
     int64_t frames = ENDLESS_FRAMES;
-    char why[512];
     weft_status status = make_edges(run, err);
     if (!status) status = await_times(run, err);
     if (status) return status;
@@ -220,12 +219,7 @@ static weft_status settle_fields(wf_run *run, wf_rational rate, weft_error *err)
     if (s->count >= 0) frames = wf_video_source_frames(s, s->count);
     if (frames < 1) return wf_video_source_too_few(run, s->count, err);
     run->setup.endless = s->count < 0 && !run->job->output_end;
-    status = wf_setup_chosen_frames(run->job, &run->setup, frames, err);
-    if (status) return status;
-    s->end_field = frames * wf_raster_fields_per_frame(&run->job->raster);
-    if (!wf_resampler_new(&desc, &s->resampler, why, sizeof why))
-        return wf_fail(err, WEFT_FAILED, "%s", why);
-    return WEFT_OK;
+    return wf_fit_frames(run, &desc, frames, &s->end_field, &s->resampler, err);
 }
 
 weft_status wf_video_source_count(wf_run *run, weft_error *err) {
