@@ -147,13 +147,23 @@ static void run_pieces(void *what, wf_worker *worker) {
             if (!wf_crew_stopped(p->crew)) p->work(p->user, worker, n);
 }
 
-/* The same, of which progress is told. */
+/* One piece more of work of which progress is told is done. */
+static void tell_piece(wf_crew *crew, const wf_worker *worker) {
+    atomic_fetch_add(&crew->pieces_done, 1);
+    wf_crew_tick(crew, worker, 0);
+}
+
+static void all_run_told(wf_crew *crew, void (*run)(void *what, wf_worker *worker), pieces *p) {
+    crew->piece_count = p->count;
+    atomic_store(&crew->pieces_done, 0);
+    all_run(crew, run, p);
+}
+
 static void run_told(void *what, wf_worker *worker) {
     pieces *p = what;
     for (int n; (n = atomic_fetch_add(&p->next, 1)) < p->count;) {
         if (!wf_crew_stopped(p->crew)) p->work(p->user, worker, n);
-        atomic_fetch_add(&p->crew->pieces_done, 1);
-        wf_crew_tick(p->crew, worker, 0);
+        tell_piece(p->crew, worker);
     }
 }
 
@@ -167,9 +177,7 @@ void wf_crew_each(wf_crew *crew, int count, int together, wf_crew_work *work, vo
 
 void wf_crew_within(wf_crew *crew, int count, wf_crew_work *work, void *user) {
     pieces p = {.crew = crew, .count = count, .work = work, .user = user};
-    crew->piece_count = count;
-    atomic_store(&crew->pieces_done, 0);
-    all_run(crew, run_told, &p);
+    all_run_told(crew, run_told, &p);
 }
 
 static void take_in_turn(pieces *p, wf_worker *worker, int n, void *made) {
@@ -192,17 +200,14 @@ static void run_in_order(void *what, wf_worker *worker) {
     for (int n; (n = atomic_fetch_add(&p->next, 1)) < p->count;) {
         void *made = wf_crew_stopped(p->crew) ? NULL : p->make(p->user, worker, n);
         take_in_turn(p, worker, n, made);
-        atomic_fetch_add(&p->crew->pieces_done, 1);
-        wf_crew_tick(p->crew, worker, 0);
+        tell_piece(p->crew, worker);
     }
 }
 
 void wf_crew_in_order(wf_crew *crew, int count, wf_crew_make *make, wf_crew_take *take,
                       void *user) {
-    crew->piece_count = count;
-    atomic_store(&crew->pieces_done, 0);
     pieces p = {.crew = crew, .count = count, .make = make, .take = take, .user = user};
-    all_run(crew, run_in_order, &p);
+    all_run_told(crew, run_in_order, &p);
 }
 
 /* ---- Beside the work ---- */
