@@ -20,7 +20,7 @@ cmake --build build -j $jobs
 file=\$(head -c 20 build/weft | od -An -tx1 | tr -d ' \n')
 [ "\${file:36:4}" = b700 ] || { echo "build/weft is not for aarch64"; exit 1; }
 # A test that looks at time or at how fast the machine is has no meaning under emulation.
-TMPDIR=/tmp ctest --test-dir build -L program -j $jobs --timeout 1200 --output-on-failure
+TMPDIR=/tmp ctest --test-dir build -L program -j $jobs --output-on-failure
 END
 
 # ---- The same numbers ----
