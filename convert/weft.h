@@ -207,6 +207,18 @@ typedef struct weft_page {
 } weft_page;
 WEFT_API weft_status weft_job_page(weft_job *job, const weft_page *asked, weft_error *err);
 
+/* weft convert --compare: the job is done once for each of `ways`, and what comes out is shown
+ * on one page, written to the job's output. A way is an aperture and what is held, and names
+ * its clip: "box,least:4,line+limit=.06,line+weight=2+limit=visible:1", at most 16. Video lies
+ * in $TMPDIR, else /tmp, while it is looked at, one clip at a time. WEFT_DEGRADED where a run
+ * was. There is no report. */
+typedef struct weft_compare {
+    size_t size;
+    const char *ways, *title; /* title: NULL for the clips' names */
+} weft_compare;
+WEFT_API weft_status weft_job_compare(weft_job *job, const weft_compare *asked,
+                                      weft_error *err);
+
 /* weft plot: draws what the JSON file at path tells (weft plot --help) into output, .svg or
  * .png, which replaces what is there. */
 WEFT_API weft_status weft_plot(const char *path, const char *output, weft_error *err);

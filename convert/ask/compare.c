@@ -1,6 +1,4 @@
 /* Runs a job once for each aperture of a list, and makes a page of what comes out. */
-#include "convert/ask/compare.h"
-
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -8,19 +6,21 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "convert/ask/asking.h"
 #include "convert/base/names.h"
 #include "convert/job/audio.h"
 #include "convert/job/colors.h"
 #include "convert/job/job.h"
+#include "convert/page/page.h"
 
 /* So many different warnings of runs are remembered; further ones may come again. */
 #define MOST_WARNINGS 64
 
 typedef struct comparing {
     weft_job *job;
-    weft_job asked; /* a copy, for what each run begins with; it owns nothing */
-    const wf_page_request *request;
-    char *text;                      /* the list, cut into entries */
+    weft_job asked;    /* a copy, for what each run begins with; it owns nothing */
+    const char *title; /* NULL: the page makes one */
+    char *text;        /* the list, cut into entries */
     char *entry[WF_PAGE_MOST_CLIPS]; /* in it */
     size_t entries;
     char *folder;      /* NULL: there is none now */
@@ -241,36 +241,54 @@ static weft_status make_page(comparing *c, const char *output, weft_error *err) 
     for (size_t i = 0; i < c->entries; i++) clip[i] = (wf_page_clip){.label = c->entry[i]};
     const wf_raster raster = wf_job_raster_shown(&c->asked);
     const wf_transfer transfer = wf_color_transfer_of(c->asked.to);
-    wf_page_request request = *c->request;
-    request.raster = &raster;
-    request.transfer = c->asked.to ? &transfer : NULL;
-    request.clip = clip;
-    request.clips = c->entries;
-    request.overwrite = c->asked.overwrite;
-    request.canceled = &c->job->canceled;
-    request.make_clip = make_clip;
-    request.make_user = c;
+    const wf_page_request request = {.raster = &raster,
+                                     .transfer = c->asked.to ? &transfer : NULL,
+                                     .title = c->title,
+                                     .clip = clip,
+                                     .clips = c->entries,
+                                     .max_bytes = WF_PAGE_MOST_BYTES,
+                                     .max_memory_bytes = c->asked.max_memory_bytes,
+                                     .overwrite = c->asked.overwrite,
+                                     .canceled = &c->job->canceled,
+                                     .progress = c->asked.progress,
+                                     .progress_user = c->asked.progress_user,
+                                     .warning = c->asked.warning,
+                                     .warning_user = c->asked.warning_user,
+                                     .make_clip = make_clip,
+                                     .make_user = c};
     weft_job_on_progress(c->job, on_progress, c);
     weft_status status = wf_page_make(&request, output, err);
     return status ? status : c->worst;
 }
 
-weft_status wf_ask_compare(weft_job *job, const char *list, const wf_page_request *request,
-                           weft_error *err) {
-    comparing c = {.job = job, .asked = *job, .request = request, .fd = -1};
-    weft_status status = check_job(job, err);
+/* Does the job that is checked, way by way. */
+static weft_status compare(comparing *c, const char *ways, weft_error *err) {
+    weft_status status = WEFT_OK;
+    char *output = strdup(c->job->output);
+    c->text = strdup(ways);
+    if (!output || !c->text) status = wf_fail(err, WEFT_NO_MEMORY, "out of memory");
+    if (!status) status = cut_list(c, err);
+    if (!status) status = check_entries(c, err);
+    if (!status) status = make_page(c, output, err);
+    close_clip(c);
+    free(c->text);
+    free(output);
+    return status;
+}
+
+weft_status weft_job_compare(weft_job *job, const weft_compare *asked, weft_error *err) {
+    weft_compare request;
+    weft_status status = wf_asked(asked, "weft_compare", &request, sizeof request, err);
+    if (!status && !request.ways)
+        status =
+            wf_fail(err, WEFT_USAGE,
+                    "nothing to compare; give apertures, such as box,shaped,line+limit=.06");
+    if (!status) status = check_job(job, err);
     if (status) return status;
+    comparing c = {.job = job, .asked = *job, .title = request.title, .fd = -1};
     weft_job_on_warning(job, warn_once, &c);
-    char *output = strdup(job->output);
-    c.text = strdup(list);
-    if (!output || !c.text) status = wf_fail(err, WEFT_NO_MEMORY, "out of memory");
-    if (!status) status = cut_list(&c, err);
-    if (!status) status = check_entries(&c, err);
-    if (!status) status = make_page(&c, output, err);
-    close_clip(&c);
+    status = compare(&c, request.ways, err);
     forget_warnings(&c);
     weft_job_on_progress(job, c.asked.progress, c.asked.progress_user);
-    free(c.text);
-    free(output);
     return status;
 }

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "convert/ask/compare.h"
 #include "convert/base/fail.h"
 #include "convert/base/names.h"
 #include "convert/base/outfile.h"
@@ -121,12 +120,7 @@ static void say_done(const wf_job_state *state) {
 
 /* What --compare asks for, made into the page that the output names. */
 static weft_status compare(wf_job_state *state, weft_job *job, weft_error *err) {
-    const wf_page_request request = {.max_bytes = WF_PAGE_MOST_BYTES,
-                                     .max_memory_bytes = job->max_memory_bytes,
-                                     .progress = wf_meter_update,
-                                     .progress_user = &state->meter,
-                                     .warning = on_warning,
-                                     .warning_user = state};
+    const weft_compare asked = {.size = sizeof asked, .ways = state->compare};
     if (state->report)
         return wf_fail(err, WEFT_USAGE, "--report is of one run, and --compare makes several");
     if (state->preview)
@@ -138,7 +132,8 @@ static weft_status compare(wf_job_state *state, weft_job *job, weft_error *err) 
     weft_job_on_warning(job, on_warning, state);
     weft_job_on_print(job, on_print, state);
     wf_cmd_catch_signals(job);
-    weft_status status = wf_ask_compare(job, state->compare, &request, err);
+    weft_job_on_progress(job, wf_meter_update, &state->meter);
+    weft_status status = weft_job_compare(job, &asked, err);
     if (!state->listed) wf_cmd_ignore_signals();
     wf_meter_clear(&state->meter);
     return status;

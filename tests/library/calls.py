@@ -92,6 +92,29 @@ class Calls(unittest.TestCase):
                 call()
             self.assertEqual("weft: " + str(caught.exception), program(*arguments).stderr.strip())
 
+    def test_every_command_has_a_call(self):
+        lines = program("--help").stdout.splitlines()
+        commands = {line.split()[1] for line in lines if line.startswith("  weft ") and not line.startswith("  weft 0")}
+        self.assertGreaterEqual(len(commands), 14)
+        self.assertEqual([name for name in sorted(commands) if not callable(getattr(weft, name, None))], [])
+
+    def test_what_the_program_says_of_itself(self):
+        self.assertEqual(weft.manual(), program("manual").stdout)
+        for shell in ("bash", "zsh", "fish"):
+            self.assertEqual(weft.completion(shell), program("completion", shell).stdout)
+        with self.assertRaisesRegex(weft.UsageError, "tcsh"):
+            weft.completion("tcsh")
+
+    def test_a_comparison_is_the_programs(self):
+        weft.compare("t.####.exr", ways=["box", "line+limit=.06"], output="called.html", raster=SMALL, subframe_rate=240)
+        program("convert", "t.####.exr", "--compare", "box,line+limit=.06", "-o", "typed.html", "--raster", SMALL,
+                "--subframe-rate", "240")
+        with open("called.html", "rb") as called, open("typed.html", "rb") as typed:
+            self.assertEqual(called.read(), typed.read())
+        for ways, said in (("", "nothing to compare|is empty"), ("bax", "bax"), ("box,,line", "empty")):
+            with self.subTest(ways), self.assertRaisesRegex(weft.UsageError, said):
+                weft.compare("t.####.exr", ways=ways, output="none.html", raster=SMALL, subframe_rate=240)
+
     def test_limits_have_figures(self):
         with self.assertRaises(weft.Failed) as caught:
             weft.measure("a.y4m", limit={"flicker.rms": 0, "legal.range_share": 1})

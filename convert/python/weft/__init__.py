@@ -9,7 +9,8 @@
 2
 
 Each command of the program is a function: `convert`, `render`, `trace`, `plan`, `measure`, `verify`,
-`info`, `filters`, `composite`, `page`, `plot`, `rasters`. Video comes and goes as files or as NumPy arrays, finished
+`info`, `filters`, `composite`, `page`, `plot`, `rasters`, `manual`, `completion`; `compare` makes a page of one job
+done in several ways. Video comes and goes as files or as NumPy arrays, finished
 video as a `Clip`; `read` makes one of a file. `Job` is one run with its progress and its canceling; `Fields`
 takes samples from a renderer and hands back finished fields; `apertures`, `aperture_response`, `raster`,
 `profiles` and `options` tell what there is. What goes wrong is a `weft.Error`, with the program's message.
@@ -27,12 +28,12 @@ from .clip import Clip, read
 from .errors import (Canceled, Error, Failed, NoMemory, UsageError, WeftError, WeftWarning)
 from .fields import Field, Fields
 from .job import Job, Progress, jobs_in
-from .questions import (composite, convert, filters, info, measure, page, plan, plot, profiles, render, trace,
-                        verify)
+from .questions import (compare, completion, composite, convert, filters, info, manual, measure, page, plan, plot,
+                        profiles, render, trace, verify)
 from .report import Report, Reports
 from .tables import (Option, Raster, aperture_response, apertures, options, raster, rasters)
 
 __all__ = ["Canceled", "Clip", "Error", "Failed", "Field", "Fields", "Job", "NoMemory", "Option", "Progress",
            "Raster", "Report", "Reports", "UsageError", "WeftError", "WeftWarning", "aperture_response",
-           "apertures", "composite", "convert", "filters", "info", "jobs_in", "library_path", "measure", "options",
+           "apertures", "compare", "completion", "composite", "convert", "filters", "info", "jobs_in", "library_path", "manual", "measure", "options",
            "page", "plan", "plot", "profiles", "raster", "rasters", "read", "render", "trace", "verify"]

@@ -66,6 +66,7 @@ Measure = _asked("raster", "chart", "display", "view_distance", "peak", "against
 Verify = _asked("profile", "raster")
 Filters = _asked("name", "input_lines", "plot", "frontier")
 Composite = _asked("system", "encoder", "decoder", "raster", "audio")
+Compare = _asked("ways", "title")
 Page = _asked("raster", "frames", "title", "max_size", "labels", "preview", "preview_frame")
 
 class VideoInfo(ctypes.Structure):
@@ -84,6 +85,7 @@ STRUCTURES = {"weft_error": Error, "weft_progress": ProgressStruct, "weft_sample
               "weft_tile": Tile, "weft_field": FieldStruct, "weft_option": OptionStruct,
               "weft_raster": RasterStruct, "weft_profile": ProfileStruct, "weft_measure": Measure,
               "weft_verify": Verify, "weft_filters": Filters, "weft_composite": Composite, "weft_page": Page,
+              "weft_compare": Compare,
               "weft_video_info": VideoInfo, "weft_picture": Picture}
 
 # ---- Functions ----
@@ -119,6 +121,7 @@ FUNCTIONS = {
     "weft_job_filters": (_STATUS, _HANDLE, POINTER(Filters), _ERROR),
     "weft_job_composite": (_STATUS, _HANDLE, POINTER(Composite), _ERROR),
     "weft_job_page": (_STATUS, _HANDLE, POINTER(Page), _ERROR),
+    "weft_job_compare": (_STATUS, _HANDLE, POINTER(Compare), _ERROR),
     "weft_plot": (_STATUS, c_char_p, c_char_p, _ERROR),
     "weft_fields_new": (_STATUS, _HANDLE, c_int64, FIELD_FN, c_void_p, POINTER(_HANDLE), _ERROR),
     "weft_fields_free": (None, _HANDLE),

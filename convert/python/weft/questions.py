@@ -4,6 +4,8 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import shutil
+import subprocess
 import tempfile
 from collections.abc import Mapping
 from typing import Any, Optional, Union
@@ -11,7 +13,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _files
-from ._library import Composite, Filters, Measure, Page, ProfileStruct, Verify, lib
+from ._library import Compare, Composite, Filters, Measure, Page, ProfileStruct, Verify, lib, library_path
 from .clip import Clip, read
 from .errors import Failed, UsageError, WeftError, call, whole_text
 from .job import Job, Path, option_text
@@ -284,6 +286,23 @@ def page(*clips: Source, output: Optional[Path] = None, labels: Any = None, **op
         job.work(lib.weft_job_page, ctypes.byref(asked))
 
 
+def compare(*inputs: Source, ways: Any, output: Path, title: Optional[str] = None, **options: Any) -> None:
+    """`weft convert --compare`, and of a scene `weft render --compare`: one page of HTML that shows the same job
+    done in several ways.
+
+    Ways are a list of apertures and what is held with them, "line+limit=.06", or a text with commas. Options are
+    those of Job, of which command says "render" of a scene.
+
+    >>> weft.compare("scene.lua", ways=["box", "shaped"], output="ways.html", command="render",
+    ...              raster="36x24@30i,tff", frames="0-1", samples=1)
+    """
+    asked = Compare(size=ctypes.sizeof(Compare))
+    asked.ways = whole_text(os.fsencode(ways if isinstance(ways, str) else ",".join(ways)))
+    asked.title = None if title is None else whole_text(os.fsencode(title))
+    with _Folder() as folder, Job(*[folder.place(source) for source in inputs], output=output, **options) as job:
+        job.work(lib.weft_job_compare, ctypes.byref(asked))
+
+
 def plot(data: Union[Path, Mapping[str, Any]], output: Path) -> None:
     """`weft plot`: draws a JSON file, or what one would hold, as .svg or .png.
 
@@ -311,3 +330,41 @@ def profiles() -> Reports:
         found.append(Report((name, (getattr(one, name) or b"").decode() or None)
                             for name, _ in one._fields_[1:]))
     return found
+
+
+# ---- What the program says of itself ----
+
+def _program() -> str:
+    """The path of the program that came with libweft: $WEFT, beside the library, or as a shell finds it."""
+    library = os.path.dirname(os.path.realpath(library_path))
+    beside = [os.path.join(library, *up, "weft") for up in ((), ("..", "bin"), ("..", "..", "bin"))]
+    for path in [os.environ.get("WEFT"), *beside, shutil.which("weft")]:
+        if path and os.path.isfile(path) and os.access(path, os.X_OK):
+            return path
+    raise Failed("the program weft is not found; install the package weft, or name it in $WEFT")
+
+
+def _said(*words: str) -> str:
+    done = subprocess.run([_program(), *words], stdin=subprocess.DEVNULL, capture_output=True, check=False, text=True)
+    if done.returncode:
+        error = UsageError if done.returncode == 2 else Failed
+        raise error(done.stderr.strip().removeprefix("weft: ") or f"weft ended with status {done.returncode}")
+    return done.stdout
+
+
+def manual() -> str:
+    """`weft manual`: the manual page, as troff formats it. Wants the program.
+
+    >>> weft.manual().splitlines()[0].split()[:3]
+    ['.TH', 'WEFT', '1']
+    """
+    return _said("manual")
+
+
+def completion(shell: str) -> str:
+    """`weft completion`: what bash, zsh or fish complete. Wants the program.
+
+    >>> "weft" in weft.completion("bash")
+    True
+    """
+    return _said("completion", shell)
